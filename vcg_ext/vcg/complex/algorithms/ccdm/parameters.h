@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_PARAMETERS_H
+#define VCG_CCDM_PARAMETERS_H
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vcg {
+namespace ccdm {
+
+/// What the wanted vertex density phi is proportional to.
+enum class DensityKind {
+    Uniform,   ///< phi = 1
+    Curvature, ///< phi = sqrt(|K| + H^2) of the input (paper, section 3.2)
+    Quality    ///< phi = the caller's per-vertex field, positive and finite
+};
+
+/// How the mesh is optimised once it has been built.
+enum class OptimizerKind {
+    Annealing ///< the paper's local and global optimisation (sections 3.3 and 3.4)
+};
+
+/// How the samples that become the output's vertices are laid on the input.
+enum class SamplerKind {
+    Random ///< drawn in proportion to the density (section 3.2)
+};
+
+/// Parameters of the remesher. Values only; a default-constructed object needs just vertexCount.
+struct Params {
+    /// Number of vertices of the result, at least 4.
+    int vertexCount = 0;
+    /// An edge is a feature when its two faces deviate from flat by more than this angle, in degrees,
+    /// range (0, 180]. 180: only boundaries and marked edges are features.
+    double featureAngle = 40.0;
+    /// Takes the edges that the caller has marked as features in addition to those found by angle.
+    bool useMarkedEdges = false;
+    /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
+    /// equation (4); range [0, 1].
+    double lambda = 0.2;
+    /// Number of perturb-optimise rounds, the paper's NG; at least 0.
+    int globalIterations = 40;
+    /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
+    int localIterations = 3;
+    DensityKind density = DensityKind::Uniform;
+    /// gamma in rho = phi^gamma, the weight in the energy; range [0, 3]. Unset: 1/5, as in the paper.
+    std::optional<double> densityExponent;
+    OptimizerKind optimizer = OptimizerKind::Annealing;
+    SamplerKind sampler = SamplerKind::Random;
+    /// Seed of the only random generator; equal input, parameters and seed give equal results.
+    std::uint32_t seed = 1;
+};
+
+/// How a run ended.
+enum class Status {
+    Done,             ///< the result was checked and handed out
+    Cancelled,        ///< the progress callback returned false
+    InvalidParameter, ///< a parameter is out of its range
+    InvalidInput,     ///< the input is not a surface that can be remeshed
+    CheckFailed       ///< the result did not pass the final check and was thrown away
+};
+
+/// Defects of the input, as counts; those that forbid remeshing make the status InvalidInput.
+struct InputDefects {
+    int unreferencedVertices = 0; ///< dropped with a warning
+    int repeatedIndexFaces = 0;   ///< faces that name a vertex twice; dropped with a warning
+    int zeroAreaFaces = 0;        ///< kept: they carry no sample
+    int nonFiniteVertices = 0;    ///< refused
+    int nonManifoldEdges = 0;     ///< edges of more than two faces; refused
+    int nonManifoldVertices = 0;  ///< vertices whose faces form more than one fan; refused
+    int duplicateFaces = 0;       ///< faces on the same three vertices; refused
+    int badDensityVertices = 0;   ///< density values that are negative or not finite; refused
+};
+
+/// Topological type of a surface.
+struct TopologyCounts {
+    int vertices = 0; ///< referenced ones
+    int edges = 0;
+    int faces = 0;
+    int euler = 0;
+    int components = 0;
+    int boundaryLoops = 0;
+    bool orientable = true;
+
+    /// Same surface up to homeomorphism, as far as these counts tell.
+    bool SameTypeAs(const TopologyCounts &o) const
+    {
+        return euler == o.euler && components == o.components && boundaryLoops == o.boundaryLoops &&
+               orientable == o.orientable;
+    }
+};
+
+/// What a run achieved.
+struct Report {
+    Status status = Status::InvalidInput;
+    std::string message; ///< one sentence with the cause; empty when done
+    InputDefects defects;
+    TopologyCounts inputTopology;
+    TopologyCounts resultTopology;
+    bool topologyPreserved = false;
+
+    int requestedVertices = 0;
+    /// Vertices beyond the requested ones, forced by topology or by features; 0 in the normal case.
+    int extraVertices = 0;
+    int featureCurves = 0;
+    int featureCorners = 0;
+    int prunedFragments = 0; ///< feature fragments shorter than the local spacing, ignored
+
+    std::vector<double> energy; ///< F of the kept state after each global iteration, first the start
+    int accepted = 0;           ///< global iterations whose result was kept
+    long long relocations = 0;  ///< vertex relocations tried, all sweeps together
+    long long flips = 0;        ///< edge flips done by the optimiser
+    int foldedEdges = 0;        ///< edges of the result whose faces turn by more than 150 degrees
+
+    std::vector<std::pair<std::string, double>> seconds; ///< wall time of each phase, in order
+    std::vector<std::string> warnings;
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
