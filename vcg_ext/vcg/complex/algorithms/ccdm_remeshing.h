@@ -2,14 +2,23 @@
 #ifndef VCG_CCDM_REMESHING_H
 #define VCG_CCDM_REMESHING_H
 
+#include <utility>
+#include <vector>
+
+#include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
 
-#include <vcg/complex/algorithms/ccdm/parameters.h>
+#include <vcg/complex/algorithms/ccdm/remesher.h>
 
 namespace vcg {
 namespace tri {
 
 /// Isotropic surface remeshing by constrained centroidal Delaunay meshes.
+///
+/// Takes any 2-manifold triangle mesh (any genus, with or without boundary, orientable or not,
+/// self-intersecting or not) and gives a mesh of well-shaped triangles with the wanted number of
+/// vertices, the same topology and the same sharp features, all of whose vertices lie on the input.
+/// Works on any vcg TriMesh type; no adjacency, flag or optional component of it is used.
 template <class MeshType>
 class CCDMRemeshing
 {
@@ -18,13 +27,79 @@ public:
     using Report = ccdm::Report;
 
     /// Remeshes `input` into `output`, which is replaced when the status is Done and left alone
-    /// otherwise. Positions, vertex quality (DensityKind::Quality) and face-edge selection
-    /// (useMarkedEdges) are read; deleted elements are skipped.
-    /// `progress` gets positions 0 to 100, never falling; returning false cancels.
-    static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr);
+    /// otherwise. Read are positions, and, when the parameters ask for them, vertex quality
+    /// (DensityKind::Quality) and face-edge selection (useMarkedEdges). Deleted elements are skipped.
+    /// `progress` gets positions 0 to 100, never falling, and the phase's name; returning false cancels.
+    static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr)
+    {
+        ccdm::MeshTables result;
+        ccdm::Remesher remesher(params, [progress](int at, const char *phase) {
+            return progress == nullptr || progress(at, phase);
+        });
+        Report report = remesher.Run(Import(input, params), result);
+        if (report.status == ccdm::Status::Done)
+            Export(result, output);
+        return report;
+    }
 
     /// Remeshes in place; the mesh is untouched unless the status is Done.
-    static Report Do(MeshType &mesh, const Params &params, CallBackPos *progress = nullptr);
+    static Report Do(MeshType &mesh, const Params &params, CallBackPos *progress = nullptr)
+    {
+        return Do(mesh, mesh, params, progress);
+    }
+
+private:
+    using CoordType = typename MeshType::CoordType;
+    using ScalarType = typename MeshType::ScalarType;
+
+    static ccdm::MeshTables Import(const MeshType &m, const Params &params)
+    {
+        ccdm::MeshTables tables;
+        const bool field = params.density == ccdm::DensityKind::Quality && HasPerVertexQuality(m);
+        std::vector<int> index(m.vert.size(), -1);
+        for (std::size_t i = 0; i < m.vert.size(); ++i) {
+            const auto &v = m.vert[i];
+            if (v.IsD())
+                continue;
+            index[i] = static_cast<int>(tables.position.size());
+            tables.position.push_back(ccdm::Point(v.cP()[0], v.cP()[1], v.cP()[2]));
+            if (field)
+                tables.field.push_back(static_cast<double>(v.cQ()));
+        }
+        for (const auto &f : m.face) {
+            if (f.IsD())
+                continue;
+            std::array<int, 3> corner;
+            unsigned bits = 0;
+            for (int k = 0; k < 3; ++k) {
+                corner[k] = index[f.cV(k) - m.vert.data()];
+                // vcg's edge k runs from corner k to the next: opposite the one after that.
+                if (params.useMarkedEdges && f.IsFaceEdgeS(k))
+                    bits |= 1U << ((k + 2) % 3);
+            }
+            tables.face.push_back(corner);
+            if (params.useMarkedEdges)
+                tables.marked.push_back(static_cast<std::uint8_t>(bits));
+        }
+        return tables;
+    }
+
+    static void Export(const ccdm::MeshTables &tables, MeshType &m)
+    {
+        m.Clear();
+        auto v = Allocator<MeshType>::AddVertices(m, tables.position.size());
+        for (const ccdm::Point &p : tables.position) {
+            for (int k = 0; k < 3; ++k)
+                v->P()[k] = static_cast<ScalarType>(p[k]);
+            ++v;
+        }
+        auto f = Allocator<MeshType>::AddFaces(m, tables.face.size());
+        for (const auto &corner : tables.face) {
+            for (int k = 0; k < 3; ++k)
+                f->V(k) = &m.vert[corner[k]];
+            ++f;
+        }
+    }
 };
 
 } // namespace tri

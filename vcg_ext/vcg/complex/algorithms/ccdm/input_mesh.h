@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_INPUT_MESH_H
+#define VCG_CCDM_INPUT_MESH_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/feature_graph.h>
+#include <vcg/complex/algorithms/ccdm/geometry.h>
+#include <vcg/complex/algorithms/ccdm/parameters.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// A triangle mesh as plain tables: what the remesher takes and gives back.
+struct MeshTables {
+    std::vector<Point> position;
+    std::vector<std::array<int, 3>> face; ///< vertex indices
+    SideMarks marked;                     ///< one bit a side, opposite corner 0, 1, 2; empty: none
+    std::vector<double> field;            ///< wanted density at each vertex; empty: none
+};
+
+/// The input made ready: unreferenced vertices and faces that repeat a vertex dropped, scaled to about
+/// unit size, coherently oriented as far as that goes, and numbered along a space-filling curve, so
+/// that the result does not depend on the numbering of the input.
+class InputMesh
+{
+public:
+    MeshTables mesh;
+    std::vector<int> original; ///< vertex of the caller's mesh for each vertex
+    InputDefects defects;
+    TopologyCounts topology;
+    std::string refusal; ///< why the input cannot be remeshed; empty if it can
+
+    explicit InputMesh(const MeshTables &input)
+    {
+        if (Select(input) && CheckEdges() && CheckVertices())
+            CheckArea();
+    }
+
+    /// Back from unit size to the caller's coordinates.
+    Point Restore(const Point &p) const { return p * _scale + _center; }
+
+private:
+    Point _center = Point(0, 0, 0);
+    double _scale = 1;
+
+    bool Refuse(const std::string &why)
+    {
+        refusal = why;
+        return false;
+    }
+
+    static std::string Counted(int n, const char *one, const char *many)
+    {
+        return std::to_string(n) + " " + (n == 1 ? one : many);
+    }
+
+    bool Select(const MeshTables &input)
+    {
+        if (input.face.empty())
+            return Refuse(input.position.empty() ? "the mesh is empty" : "the mesh has no faces");
+        std::vector<char> used(input.position.size(), 0);
+        std::vector<int> faces;
+        for (std::size_t t = 0; t < input.face.size(); ++t) {
+            const auto &f = input.face[t];
+            if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) {
+                ++defects.repeatedIndexFaces;
+                continue;
+            }
+            faces.push_back(static_cast<int>(t));
+            for (const int v : f)
+                used[v] = 1;
+        }
+        if (faces.empty())
+            return Refuse("every face names a vertex twice");
+        Bounds box;
+        std::vector<int> kept;
+        for (std::size_t v = 0; v < used.size(); ++v) {
+            const Point &p = input.position[v];
+            if (!used[v]) {
+                ++defects.unreferencedVertices;
+                continue;
+            }
+            kept.push_back(static_cast<int>(v));
+            if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+                ++defects.nonFiniteVertices;
+            else
+                box.Add(p);
+            if (!input.field.empty() && !(std::isfinite(input.field[v]) && input.field[v] >= 0))
+                ++defects.badDensityVertices;
+        }
+        if (defects.nonFiniteVertices > 0)
+            return Refuse(Counted(defects.nonFiniteVertices, "vertex has", "vertices have") +
+                          " coordinates that are not finite");
+        if (defects.badDensityVertices > 0)
+            return Refuse(Counted(defects.badDensityVertices, "vertex has", "vertices have") +
+                          " a density that is negative or not finite");
+        // A power of two scales without rounding.
+        const double diagonal = box.Diagonal();
+        if (!(diagonal > 0) || !std::isfinite(diagonal))
+            return Refuse(diagonal > 0 ? "the mesh is too large for its coordinates" : "all vertices lie at one point");
+        _center = (box.low + box.high) * 0.5;
+        _scale = std::exp2(std::ceil(std::log2(diagonal)));
+        Number(input, kept, faces);
+        return true;
+    }
+
+    void Number(const MeshTables &input, const std::vector<int> &kept, const std::vector<int> &faces)
+    {
+        std::vector<Point> unit;
+        unit.reserve(kept.size());
+        for (const int v : kept)
+            unit.push_back((input.position[v] - _center) / _scale);
+        std::vector<int> newIndex(input.position.size(), -1);
+        for (const int k : SpatialOrder(unit)) {
+            newIndex[kept[k]] = static_cast<int>(original.size());
+            original.push_back(kept[k]);
+            mesh.position.push_back(unit[k]);
+            if (!input.field.empty())
+                mesh.field.push_back(input.field[kept[k]]);
+        }
+        // Faces start at their first vertex and follow one another by vertices.
+        std::vector<int> start(original.size() + 1, 0);
+        auto smallest = [&](int t) {
+            const auto &f = input.face[t];
+            return std::min({newIndex[f[0]], newIndex[f[1]], newIndex[f[2]]});
+        };
+        for (const int t : faces)
+            ++start[smallest(t) + 1];
+        for (std::size_t v = 0; v < original.size(); ++v)
+            start[v + 1] += start[v];
+        std::vector<int> order(faces.size());
+        std::vector<int> fill(start.begin(), start.end() - 1);
+        for (const int t : faces)
+            order[fill[smallest(t)]++] = t;
+        mesh.face.resize(faces.size());
+        std::vector<std::uint8_t> bits(faces.size(), 0);
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const auto &f = input.face[order[k]];
+            int first = 0;
+            while (newIndex[f[first]] != smallest(order[k]))
+                ++first;
+            for (int i = 0; i < 3; ++i) {
+                mesh.face[k][i] = newIndex[f[(first + i) % 3]];
+                if (!input.marked.empty() && ((input.marked[order[k]] >> ((first + i) % 3)) & 1))
+                    bits[k] = static_cast<std::uint8_t>(bits[k] | (1U << i));
+            }
+        }
+        // Within the run of one first vertex, by the other two.
+        std::vector<int> run;
+        std::vector<std::array<int, 3>> sortedFace(faces.size());
+        std::vector<std::uint8_t> sortedBits(faces.size());
+        for (std::size_t v = 0; v < original.size(); ++v) {
+            run.resize(start[v + 1] - start[v]);
+            std::iota(run.begin(), run.end(), start[v]);
+            std::sort(run.begin(), run.end(), [&](int a, int b) { return mesh.face[a] < mesh.face[b]; });
+            for (std::size_t k = 0; k < run.size(); ++k) {
+                sortedFace[start[v] + k] = mesh.face[run[k]];
+                sortedBits[start[v] + k] = bits[run[k]];
+            }
+        }
+        mesh.face.swap(sortedFace);
+        if (!input.marked.empty())
+            mesh.marked.swap(sortedBits);
+    }
+
+    bool CheckEdges()
+    {
+        std::vector<std::array<int, 3>> sorted = mesh.face;
+        for (auto &f : sorted)
+            std::sort(f.begin(), f.end());
+        std::sort(sorted.begin(), sorted.end());
+        for (std::size_t t = 1; t < sorted.size(); ++t)
+            defects.duplicateFaces += sorted[t] == sorted[t - 1];
+        std::vector<int> start(mesh.position.size() + 1, 0);
+        for (const auto &f : sorted)
+            for (const int low : {f[0], f[0], f[1]})
+                ++start[low + 1];
+        for (std::size_t v = 0; v + 1 < start.size(); ++v)
+            start[v + 1] += start[v];
+        std::vector<int> other(start.back());
+        std::vector<int> fill(start.begin(), start.end() - 1);
+        for (const auto &f : sorted) {
+            other[fill[f[0]]++] = f[1];
+            other[fill[f[0]]++] = f[2];
+            other[fill[f[1]]++] = f[2];
+        }
+        for (std::size_t v = 0; v + 1 < start.size(); ++v) {
+            std::sort(other.begin() + start[v], other.begin() + start[v + 1]);
+            for (int k = start[v]; k < start[v + 1];) {
+                int end = k;
+                while (end < start[v + 1] && other[end] == other[k])
+                    ++end;
+                defects.nonManifoldEdges += end - k > 2;
+                k = end;
+            }
+        }
+        if (defects.nonManifoldEdges > 0)
+            return Refuse(Counted(defects.nonManifoldEdges, "edge has", "edges have") + " more than two faces");
+        if (defects.duplicateFaces > 0)
+            return Refuse(Counted(defects.duplicateFaces, "face repeats", "faces repeat") +
+                          " the three vertices of another");
+        return true;
+    }
+
+    bool CheckVertices()
+    {
+        Triangulation tables;
+        tables.Build(static_cast<int>(mesh.position.size()), mesh.face);
+        std::vector<int> corners(mesh.position.size(), 0);
+        for (const auto &f : mesh.face)
+            for (const int v : f)
+                ++corners[v];
+        Star star;
+        for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+            tables.GatherStar(static_cast<int>(v), star);
+            defects.nonManifoldVertices += star.Triangles() != corners[v];
+        }
+        if (defects.nonManifoldVertices > 0)
+            return Refuse(Counted(defects.nonManifoldVertices, "vertex joins", "vertices join") +
+                          " several sheets (its faces form more than one fan)");
+        Orient(tables);
+        tables.Build(static_cast<int>(mesh.position.size()), mesh.face);
+        const Verification proof = VerifyTriangulation(tables);
+        topology = proof.counts;
+        return proof.fault.empty() || Refuse(proof.fault);
+    }
+
+    // Turns faces so that each component is coherent with its first face; across the seams of a
+    // one-sided surface neighbours stay as they are.
+    void Orient(const Triangulation &tables)
+    {
+        std::vector<signed char> turn(mesh.face.size(), 0);
+        std::vector<int> queue;
+        for (std::size_t t0 = 0; t0 < mesh.face.size(); ++t0) {
+            if (turn[t0] != 0)
+                continue;
+            turn[t0] = 1;
+            queue.assign(1, static_cast<int>(t0));
+            for (std::size_t k = 0; k < queue.size(); ++k)
+                for (int e = 0; e < 3; ++e) {
+                    const Side s = MakeSide(queue[k], e), mate = tables.Mate(s);
+                    if (mate == NoSide || turn[SideTriangle(mate)] != 0)
+                        continue;
+                    turn[SideTriangle(mate)] =
+                        static_cast<signed char>(tables.Coherent(s) ? turn[queue[k]] : -turn[queue[k]]);
+                    queue.push_back(SideTriangle(mate));
+                }
+        }
+        for (std::size_t t = 0; t < mesh.face.size(); ++t)
+            if (turn[t] < 0) {
+                std::swap(mesh.face[t][1], mesh.face[t][2]);
+                if (!mesh.marked.empty()) {
+                    const unsigned b = mesh.marked[t];
+                    mesh.marked[t] = static_cast<std::uint8_t>((b & 1U) | (b & 2U) << 1 | (b & 4U) >> 1);
+                }
+            }
+    }
+
+    void CheckArea()
+    {
+        double total = 0;
+        for (const auto &f : mesh.face) {
+            const Point a = mesh.position[f[1]] - mesh.position[f[0]], b = mesh.position[f[2]] - mesh.position[f[0]];
+            const double area = Norm(Cross(a, b)) / 2;
+            const double longest = std::max({SquaredNorm(a), SquaredNorm(b), SquaredNorm(b - a)});
+            defects.zeroAreaFaces += !(area > 5e-13 * longest);
+            total += area;
+        }
+        if (!(total > 1e-12))
+            Refuse("the surface has no area");
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_OPTIMIZER_H
+#define VCG_CCDM_OPTIMIZER_H
+
+#include <functional>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/delaunay.h>
+#include <vcg/complex/algorithms/ccdm/relocation.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Improves a remesh by alternating Delaunay flips and vertex relocations (paper, sections 3.3, 3.4).
+class Optimizer
+{
+public:
+    /// Called with the share of the work done, in [0, 1]; false stops the optimisation.
+    using Progress = std::function<bool(double)>;
+
+    Optimizer(const Model &model, const Params &params, Remesh &remesh, Report &report)
+        : _model(model), _params(params), _remesh(remesh), _report(report), _relocator(model, remesh),
+          _random(params.seed ^ 0x6f7074696d697a65ULL)
+    {
+    }
+
+    /// Runs the optimiser that the parameters name. False when `progress` stopped it.
+    bool Run(const Progress &progress)
+    {
+        switch (_params.optimizer) {
+        case OptimizerKind::Annealing:
+            return Anneal(progress);
+        }
+        return false;
+    }
+
+private:
+    const Model &_model;
+    const Params &_params;
+    Remesh &_remesh;
+    Report &_report;
+    Relocator _relocator;
+    DelaunayFlipper _flipper;
+    Random _random;
+
+    void Flip() { _report.flips += _flipper.Run(_remesh); }
+
+    template <class Displacement>
+    void Sweep(const Displacement &displacement)
+    {
+        _relocator.Sweep(displacement);
+        _report.relocations += _remesh.VertexCount();
+    }
+
+    // Algorithm 1: Delaunay mesh, then every vertex to its centroid.
+    void OptimizeLocally()
+    {
+        for (int i = 0; i < _params.localIterations; ++i) {
+            Flip();
+            Sweep(PatchCentroid{_remesh, _model.density.uniform});
+        }
+        Flip();
+    }
+
+    // Section 3.4: perturb, optimise locally, keep the state only if it has the lower energy.
+    bool Anneal(const Progress &progress)
+    {
+        OptimizeLocally();
+        Remesh best = _remesh;
+        double bestEnergy = Energy(_remesh);
+        _report.energy.assign(1, bestEnergy);
+        for (int i = 0; i < _params.globalIterations; ++i) {
+            _relocator.Sweep(Perturbation{_params.lambda, _random});
+            OptimizeLocally();
+            const double energy = Energy(_remesh);
+            if (energy < bestEnergy) {
+                bestEnergy = energy;
+                best = _remesh;
+                ++_report.accepted;
+            } else {
+                _remesh = best;
+            }
+            _report.energy.push_back(bestEnergy);
+            if (!progress(static_cast<double>(i + 1) / _params.globalIterations))
+                return false;
+        }
+        return true;
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif

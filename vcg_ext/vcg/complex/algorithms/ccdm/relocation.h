@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_RELOCATION_H
+#define VCG_CCDM_RELOCATION_H
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/remesh.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// The star of a vertex with geometry: what a relocation rule sees. Positions are relative to the
+/// vertex; triangle k lies between spokes k and After(k).
+struct LocalStar {
+    int triangles = 0;
+    bool closed = true;
+    std::vector<int> id;           ///< outer vertices
+    std::vector<Point> spoke;      ///< their positions relative to the centre
+    std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
+    std::vector<char> sectorStart; ///< a feature edge runs along spoke k
+    Point normal;                  ///< sum of the cross products
+    double radius = 0;             ///< mean length of the spokes
+
+    int After(int k) const { return closed && k + 1 == triangles ? 0 : k + 1; }
+};
+
+/// Moves the vertices of a remesh one at a time: free ones over the surface, curve vertices along their
+/// curve, corners not at all; and refuses every move that would fold the star.
+class Relocator
+{
+public:
+    Relocator(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh) {}
+
+    /// One sweep: every vertex moves by `displacement(star, vertex)`, in order. Returns the vertices
+    /// that moved.
+    template <class Displacement>
+    long long Sweep(Displacement displacement)
+    {
+        long long moved = 0;
+        const int count = _remesh.VertexCount();
+        for (int v = 0; v < count; ++v)
+            if (_remesh.place[v].kind != VertexKind::Corner) {
+                Gather(v);
+                moved += Move(v, displacement(_star, v));
+            }
+        return moved;
+    }
+
+private:
+    const Model &_model;
+    Remesh &_remesh;
+    LocalStar _star;
+    std::vector<double> _facing; // per triangle: area towards its sector's normal, before the move
+
+    void Gather(int v)
+    {
+        const Triangulation &m = _remesh.mesh;
+        LocalStar &s = _star;
+        s.id.clear();
+        s.spoke.clear();
+        s.sectorStart.clear();
+        s.closed = true;
+        const bool curve = _remesh.place[v].kind == VertexKind::Curve;
+        const Point x = _remesh.position[v];
+        const int first = m.incident[v];
+        int t = first, i = m.triangle[t].IndexOf(v), j = Next(i);
+        if (curve) {
+            // Start at a feature edge, so that sectors do not wrap around; at the boundary if there is
+            // one.
+            const Side start = SectorStart(v);
+            t = SideTriangle(start);
+            i = m.triangle[t].IndexOf(v);
+            j = 3 - i - SideEdge(start);
+        }
+        const int origin = t;
+        for (;;) {
+            const Triangle &T = m.triangle[t];
+            s.id.push_back(T.v[j]);
+            s.spoke.push_back(_remesh.position[T.v[j]] - x);
+            if (curve)
+                s.sectorStart.push_back(static_cast<char>(T.Constrained(3 - i - j)));
+            const Side next = T.n[j];
+            if (next == NoSide) {
+                s.closed = false;
+                const int last = T.v[3 - i - j];
+                s.id.push_back(last);
+                s.spoke.push_back(_remesh.position[last] - x);
+                break;
+            }
+            t = SideTriangle(next);
+            if (t == origin)
+                break;
+            i = m.triangle[t].IndexOf(v);
+            j = 3 - i - SideEdge(next);
+        }
+        s.triangles = static_cast<int>(s.id.size()) - (s.closed ? 0 : 1);
+        s.cross.resize(s.triangles);
+        s.normal = Point(0, 0, 0);
+        s.radius = 0;
+        for (int k = 0; k < s.triangles; ++k) {
+            s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
+            s.normal += s.cross[k];
+        }
+        for (const Point &u : s.spoke)
+            s.radius += Norm(u);
+        s.radius /= static_cast<double>(s.spoke.size());
+    }
+
+    // The side of a feature edge at v from which a walk that starts inside its triangle sees whole
+    // sectors; a boundary edge if v has one.
+    Side SectorStart(int v) const
+    {
+        Side start = NoSide;
+        bool boundary = false;
+        const Triangulation &m = _remesh.mesh;
+        m.VisitSpokes(v, [&](int, Side s) {
+            if (m.Constrained(s) && !boundary) {
+                start = s;
+                boundary = m.Mate(s) == NoSide;
+            }
+            return true;
+        });
+        return start;
+    }
+
+    bool Move(int v, Point step)
+    {
+        if (!(SquaredNorm(step) > 0))
+            return false;
+        const double limit = 0.5 * _star.radius, length = Norm(step);
+        if (length > limit)
+            step *= limit / length;
+        return _remesh.place[v].kind == VertexKind::Free ? MoveFree(v, step) : Slide(v, step);
+    }
+
+    bool MoveFree(int v, Point step)
+    {
+        const Point x = _remesh.position[v];
+        // The part along the star's normal would shrink curved and thin parts.
+        const double n2 = SquaredNorm(_star.normal);
+        if (n2 > 0)
+            step -= _star.normal * (Dot(_star.normal, step) / n2);
+        MeasureFacing(false);
+        for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
+            const auto [face, foot] = _model.surface.Project(_remesh.place[v].face, x, x + step);
+            if (!KeepsStar(foot.point - x))
+                continue;
+            _remesh.position[v] = foot.point;
+            _remesh.place[v].face = face;
+            if (!_model.density.uniform) {
+                const Triangle &T = _model.surface.mesh.triangle[face];
+                const std::vector<double> &rho = _model.density.rho;
+                _remesh.rho[v] =
+                    foot.weight[0] * rho[T.v[0]] + foot.weight[1] * rho[T.v[1]] + foot.weight[2] * rho[T.v[2]];
+            }
+            return true;
+        }
+        return false;
+    }
+
+    bool Slide(int v, Point step)
+    {
+        const Point x = _remesh.position[v];
+        Place place = _remesh.place[v];
+        const FeatureCurve &c = _model.features.curve[place.curve];
+        MeasureFacing(true);
+        for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
+            double s = place.s;
+            int segment = place.segment;
+            NearestOnCurve(c, x + step, 1.5 * Norm(step), s, segment);
+            if (s == place.s)
+                return false;
+            const Point &a = _model.surface.position[c.vertex[segment]];
+            const Point &b = _model.surface.position[c.vertex[segment + 1]];
+            const double t = c.Fraction(segment, s);
+            const Point q = a + (b - a) * t;
+            if (!KeepsStar(q - x))
+                continue;
+            place.s = s;
+            place.segment = segment;
+            place.face = SideTriangle(c.side[segment]);
+            _remesh.position[v] = q;
+            _remesh.place[v] = place;
+            const std::vector<double> &rho = _model.density.rho;
+            _remesh.rho[v] = (1 - t) * rho[c.vertex[segment]] + t * rho[c.vertex[segment + 1]];
+            return true;
+        }
+        return false;
+    }
+
+    // Point of the curve nearest to p among those within `reach` along the curve of (s, segment).
+    void NearestOnCurve(const FeatureCurve &c, const Point &p, double reach, double &s, int &segment) const
+    {
+        const double start = s, length = c.Length();
+        const int home = segment, count = c.Segments();
+        double best = 1e300;
+        auto consider = [&](int k, double offset) {
+            // offset: what to add to the arc length of segment k to continue that of the start.
+            const Point &a = _model.surface.position[c.vertex[k]];
+            const Point d = _model.surface.position[c.vertex[k + 1]] - a;
+            const double l = c.arc[k + 1] - c.arc[k];
+            if (!(l > 0))
+                return;
+            double t = Dot(p - a, d) / (l * l);
+            const double low = std::max(0.0, (start - reach - offset - c.arc[k]) / l);
+            const double high = std::min(1.0, (start + reach - offset - c.arc[k]) / l);
+            t = std::clamp(t, low, std::max(low, high));
+            const double distance = SquaredNorm(a + d * t - p);
+            if (distance < best) {
+                best = distance;
+                s = c.arc[k] + t * l;
+                segment = k;
+            }
+        };
+        consider(home, 0);
+        double offset = 0;
+        for (int k = home, steps = 0; steps < count; ++steps) {
+            if (k + 1 == count) {
+                if (!c.closed)
+                    break;
+                offset += length;
+                k = -1;
+            }
+            ++k;
+            if (k == home || c.arc[k] + offset > start + reach)
+                break;
+            consider(k, offset);
+        }
+        offset = 0;
+        for (int k = home, steps = 0; steps < count; ++steps) {
+            if (k == 0) {
+                if (!c.closed)
+                    break;
+                offset -= length;
+                k = count;
+            }
+            --k;
+            if (k == home || c.arc[k + 1] + offset < start - reach)
+                break;
+            consider(k, offset);
+        }
+    }
+
+    // Normals of the sectors between feature edges (of the whole star for a free vertex), repeated for
+    // each of their triangles, and how much of each triangle faces that way.
+    void MeasureFacing(bool sectors)
+    {
+        const int n = _star.triangles;
+        _sectorNormal.resize(n);
+        _facing.resize(n);
+        for (int k = 0; k < n;) {
+            int end = sectors ? k + 1 : n;
+            Point normal = sectors ? _star.cross[k] : _star.normal;
+            while (sectors && end < n && !_star.sectorStart[end])
+                normal += _star.cross[end++];
+            const double scale = SquaredNorm(normal) / (end - k);
+            for (; k < end; ++k) {
+                _sectorNormal[k] = scale > 0 ? normal / scale : normal;
+                _facing[k] = Dot(_star.cross[k], _sectorNormal[k]);
+            }
+        }
+    }
+
+    // Fold guard: every triangle still faces the way of its sector. Where some did not before, no such
+    // triangle may get worse and the worst must improve.
+    bool KeepsStar(const Point &move) const
+    {
+        const double least = 1e-3; // of the sector's mean triangle
+        double before = 1e300, after = 1e300;
+        for (int k = 0; k < _star.triangles; ++k) {
+            const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
+            before = std::min(before, _facing[k]);
+            after = std::min(after, Dot(c, _sectorNormal[k]));
+        }
+        return after > least || after > before;
+    }
+    std::vector<Point> _sectorNormal;
+};
+
+/// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
+struct PatchCentroid {
+    const Remesh &remesh;
+    bool uniform;
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        Point sum(0, 0, 0);
+        double mass = 0;
+        for (int k = 0; k < star.triangles; ++k) {
+            const int next = star.After(k);
+            double m = Norm(star.cross[k]);
+            if (!uniform)
+                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
+            sum += (star.spoke[k] + star.spoke[next]) * m;
+            mass += m;
+        }
+        return mass > 0 ? sum / (3 * mass) : Point(0, 0, 0);
+    }
+};
+
+/// Random step of at most lambda times the mean edge length in the tangent plane: equation (4).
+struct Perturbation {
+    double lambda;
+    Random &random;
+
+    Point operator()(const LocalStar &star, int) const
+    {
+        const double u = random.Unit(), angle = 2 * Pi * random.Unit();
+        const Point n = Normalized(star.normal);
+        const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
+        const Point t1 = Normalized(Cross(n, axis)), t2 = Cross(n, t1);
+        return (t1 * std::cos(angle) + t2 * std::sin(angle)) * (lambda * star.radius * u);
+    }
+};
+
+/// The energy F of equation (1): 5/12 of the sum over the triangles of density * area * the sum of
+/// the squared edge lengths, the density being constant on each triangle.
+inline double Energy(const Remesh &r)
+{
+    double sum = 0;
+    for (const Triangle &T : r.mesh.triangle) {
+        const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
+        const double rho = (r.rho[T.v[0]] + r.rho[T.v[1]] + r.rho[T.v[2]]) / 3;
+        sum += rho * Norm(Cross(b - a, c - a)) / 2 * (SquaredNorm(b - a) + SquaredNorm(c - b) + SquaredNorm(a - c));
+    }
+    return sum * 5 / 12;
+}
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif

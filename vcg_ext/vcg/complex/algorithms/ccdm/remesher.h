@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_REMESHER_H
+#define VCG_CCDM_REMESHER_H
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/initial_mesh.h>
+#include <vcg/complex/algorithms/ccdm/input_mesh.h>
+#include <vcg/complex/algorithms/ccdm/optimizer.h>
+#include <vcg/complex/algorithms/ccdm/result_check.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// From mesh tables to mesh tables: the stages of the remesher in order.
+class Remesher
+{
+public:
+    /// Gets a position in 0..100 and the name of the phase; false cancels.
+    using Progress = std::function<bool(int, const char *)>;
+
+    Remesher(const Params &params, Progress progress) : _params(params), _progress(std::move(progress)) {}
+
+    /// `output` is filled only when the report's status is Done.
+    Report Run(const MeshTables &input, MeshTables &output)
+    {
+        Stages(input, output);
+        return std::move(_report);
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const Params _params;
+    const Progress _progress;
+    Report _report;
+    Clock::time_point _phaseStart;
+    const char *_phase = "";
+    int _from = 0, _to = 0, _last = -1;
+
+    bool Stages(const MeshTables &input, MeshTables &output)
+    {
+        if (!CheckParams())
+            return false;
+
+        if (!Begin("checking the input", 0, 3))
+            return false;
+        InputMesh prepared(input);
+        _report.defects = prepared.defects;
+        _report.inputTopology = prepared.topology;
+        if (!prepared.refusal.empty())
+            return Fail(Status::InvalidInput, prepared.refusal);
+        WarnOfDefects();
+
+        if (!Begin("finding features", 3, 6))
+            return false;
+        Model model;
+        model.surface = ReferenceSurface(std::move(prepared.mesh.position), prepared.mesh.face);
+        if (!FindFeatures(model, prepared.mesh))
+            return false;
+
+        if (!Begin("sampling", 6, 8))
+            return false;
+        const SampleSet samples = Sample(model);
+
+        if (!Begin("building the initial mesh", 8, 20))
+            return false;
+        Remesh remesh;
+        if (!InitialMeshBuilder(model, samples).Build(remesh, [this](double x) { return Advance(x); }))
+            return false;
+        CountExtra(model, remesh);
+
+        if (!Begin("optimising", 20, 97))
+            return false;
+        if (!Optimizer(model, _params, remesh, _report).Run([this](double x) { return Advance(x); }))
+            return false;
+
+        if (!Begin("checking the result", 97, 100))
+            return false;
+        if (!Check(model, remesh))
+            return false;
+        WriteBack(prepared, input, remesh, output);
+        Finish();
+        return true;
+    }
+
+    bool Fail(Status status, const std::string &why)
+    {
+        _report.status = status;
+        _report.message = why;
+        return false;
+    }
+
+    bool CheckParams()
+    {
+        auto bad = [&](const std::string &why) { return Fail(Status::InvalidParameter, why); };
+        const Params &p = _params;
+        if (p.vertexCount < 4)
+            return bad("the vertex count must be at least 4, not " + std::to_string(p.vertexCount));
+        if (p.vertexCount > 100000000)
+            return bad("the vertex count must be at most 100000000, not " + std::to_string(p.vertexCount));
+        if (!(p.featureAngle > 0 && p.featureAngle <= 180))
+            return bad("the feature angle must lie above 0 and be at most 180 degrees");
+        if (!(p.lambda >= 0 && p.lambda <= 1))
+            return bad("lambda must lie between 0 and 1");
+        if (p.globalIterations < 0 || p.globalIterations > 1000000)
+            return bad("the number of global iterations must lie between 0 and 1000000");
+        if (p.localIterations < 1 || p.localIterations > 1000000)
+            return bad("the number of local iterations must lie between 1 and 1000000");
+        const double exponent = p.densityExponent.value_or(0.2);
+        if (!(exponent >= 0 && exponent <= 3))
+            return bad("the density exponent must lie between 0 and 3");
+        _report.requestedVertices = p.vertexCount;
+        return true;
+    }
+
+    void WarnOfDefects()
+    {
+        const InputDefects &d = _report.defects;
+        auto warn = [&](int n, const char *one, const char *many) {
+            if (n > 0)
+                _report.warnings.push_back(std::to_string(n) + " " + (n == 1 ? one : many));
+        };
+        warn(d.unreferencedVertices, "vertex that no face uses was dropped",
+             "vertices that no face uses were dropped");
+        warn(d.repeatedIndexFaces, "face that names a vertex twice was dropped",
+             "faces that name a vertex twice were dropped");
+        warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
+    }
+
+    bool FindFeatures(Model &model, const MeshTables &input)
+    {
+        ReferenceSurface &surface = model.surface;
+        const SideMarks marked = _params.useMarkedEdges ? input.marked : SideMarks();
+        MarkFeatures(surface, _params.featureAngle, marked);
+        std::vector<double> phi;
+        switch (_params.density) {
+        case DensityKind::Uniform:
+            phi.assign(surface.position.size(), 1.0);
+            break;
+        case DensityKind::Curvature:
+            phi = CurvatureDensity(surface);
+            break;
+        case DensityKind::Quality:
+            if (input.field.empty())
+                return Fail(Status::InvalidInput, "the mesh has no per-vertex density");
+            phi = input.field;
+            const double largest = *std::max_element(phi.begin(), phi.end());
+            if (!(largest > 0))
+                return Fail(Status::InvalidInput, "the density is zero everywhere");
+            for (double &x : phi)
+                x = std::max(x / largest, 1e-6);
+            break;
+        }
+        model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
+                                         _params.densityExponent.value_or(0.2), _params.vertexCount);
+        model.features = FeatureTracer(surface, model.density.spacing, marked, CornerAngle).Trace();
+        _report.featureCurves = static_cast<int>(model.features.curve.size());
+        _report.featureCorners = static_cast<int>(model.features.corner.size());
+        _report.prunedFragments = model.features.pruned;
+        return true;
+    }
+
+    SampleSet Sample(const Model &model)
+    {
+        SampleSet samples;
+        Random random(_params.seed);
+        samples.onCurves = SampleCurves(model.surface, model.features, model.density);
+        const int featureSamples = static_cast<int>(samples.onCurves.size() + model.features.corner.size());
+        samples.onFaces =
+            SampleFaces(model.surface, model.density, std::max(0, _params.vertexCount - featureSamples), random);
+        return samples;
+    }
+
+    void CountExtra(const Model &model, const Remesh &remesh)
+    {
+        _report.extraVertices = std::max(0, remesh.VertexCount() - _params.vertexCount);
+        if (_report.extraVertices == 0)
+            return;
+        int onFeatures = 0;
+        for (const Place &p : remesh.place)
+            onFeatures += p.kind != VertexKind::Free;
+        _report.warnings.push_back(
+            std::to_string(remesh.VertexCount()) + " vertices instead of " + std::to_string(_params.vertexCount) +
+            ": the topology and the " + std::to_string(model.features.curve.size()) +
+            " feature curves (with " + std::to_string(onFeatures) + " vertices) need them");
+    }
+
+    bool Check(const Model &model, const Remesh &remesh)
+    {
+        const ResultCheck check(model, remesh);
+        _report.resultTopology = check.topology;
+        _report.foldedEdges = check.foldedEdges;
+        _report.topologyPreserved = check.topology.SameTypeAs(_report.inputTopology);
+        if (!check.fault.empty())
+            return Fail(Status::CheckFailed, "the result was thrown away: " + check.fault);
+        if (!_report.topologyPreserved)
+            return Fail(Status::CheckFailed, "the result was thrown away: its topology is not the input's");
+        if (remesh.VertexCount() < _params.vertexCount)
+            return Fail(Status::CheckFailed, "the result was thrown away: it has only " +
+                                                 std::to_string(remesh.VertexCount()) + " vertices");
+        return true;
+    }
+
+    static void WriteBack(const InputMesh &prepared, const MeshTables &input, const Remesh &remesh, MeshTables &output)
+    {
+        MeshTables result;
+        result.position.reserve(remesh.position.size());
+        for (const Point &p : remesh.position)
+            result.position.push_back(prepared.Restore(p));
+        (void)input;
+        result.face.reserve(remesh.mesh.triangle.size());
+        for (const Triangle &T : remesh.mesh.triangle)
+            result.face.push_back({T.v[0], T.v[1], T.v[2]});
+        output = std::move(result);
+    }
+
+    bool Begin(const char *phase, int from, int to)
+    {
+        EndPhase();
+        _phase = phase;
+        _from = from;
+        _to = to;
+        _phaseStart = Clock::now();
+        return Advance(0);
+    }
+
+    void EndPhase()
+    {
+        if (*_phase != 0)
+            _report.seconds.emplace_back(_phase, std::chrono::duration<double>(Clock::now() - _phaseStart).count());
+    }
+
+    bool Advance(double share)
+    {
+        const int at = std::max(_last, static_cast<int>(_from + (_to - _from) * std::clamp(share, 0.0, 1.0)));
+        _last = at;
+        return !_progress || _progress(at, _phase) || Fail(Status::Cancelled, std::string("cancelled while ") + _phase);
+    }
+
+    void Finish()
+    {
+        EndPhase();
+        _report.status = Status::Done;
+        if (_progress)
+            _progress(100, "done"); // nothing is left to cancel
+    }
+
+    /// A curve that turns by more than this within one spacing has a corner there, in degrees.
+    static constexpr double CornerAngle = 50;
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
