@@ -54,6 +54,54 @@ inline double AspectRatio(const Point &a, const Point &b, const Point &c)
     return scale > 0 ? 2 * std::sqrt(3.0) * Norm(Cross(b - a, c - a)) / scale : 0;
 }
 
+/// A point of a triangle nearest to some other point.
+struct Foot {
+    Point point;
+    double weight[3];
+    double squaredDistance;
+};
+
+/// Point nearest to p of the triangle at `origin` with sides e1 and e2, found by the Voronoi region
+/// that p lies in (Ericson 2005, "Real-time collision detection", section 5.1.5).
+inline Foot NearestOnTriangle(const Point &origin, const Point &e1, const Point &e2, const Point &p)
+{
+    auto at = [&](double w1, double w2) {
+        Foot r;
+        r.point = origin + e1 * w1 + e2 * w2;
+        r.weight[0] = 1 - w1 - w2;
+        r.weight[1] = w1;
+        r.weight[2] = w2;
+        r.squaredDistance = SquaredNorm(p - r.point);
+        return r;
+    };
+    auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
+    const Point ap = p - origin;
+    const double d1 = Dot(e1, ap), d2 = Dot(e2, ap);
+    if (d1 <= 0 && d2 <= 0)
+        return at(0, 0);
+    const Point bp = ap - e1;
+    const double d3 = Dot(e1, bp), d4 = Dot(e2, bp);
+    if (d3 >= 0 && d4 <= d3)
+        return at(1, 0);
+    const Point cp = ap - e2;
+    const double d5 = Dot(e1, cp), d6 = Dot(e2, cp);
+    if (d6 >= 0 && d5 <= d6)
+        return at(0, 1);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0)
+        return at(ratio(d1, d1 - d3), 0);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0)
+        return at(0, ratio(d2, d2 - d6));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double s = ratio(d4 - d3, (d4 - d3) + (d5 - d6));
+        return at(1 - s, s);
+    }
+    const double sum = va + vb + vc;
+    return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
+}
+
 /// Morton code of a point of the unit cube, 21 bits an axis.
 inline std::uint64_t MortonCode(const Point &unit)
 {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
+#include <vcg/complex/algorithms/ccdm/extremes.h>
+#include <vcg/complex/algorithms/ccdm/polish.h>
 #include <vcg/complex/algorithms/ccdm/relocation.h>
 
 namespace vcg {
@@ -42,6 +44,7 @@ private:
     Relocator _relocator;
     DelaunayFlipper _flipper;
     Random _random;
+    std::vector<int> _pinned; // vertices held on a tip of the input
 
     void Flip() { _report.flips += _flipper.Run(_remesh); }
 
@@ -62,6 +65,23 @@ private:
         Flip();
     }
 
+    // Vertices that are put on a tip stay there while the others settle around them.
+    void PinExtremes()
+    {
+        for (const int v : ExtremeCapture(_model, _remesh).Run(0.6, 20)) {
+            _remesh.place[v].kind = VertexKind::Corner;
+            _pinned.push_back(v);
+        }
+    }
+
+    void ReleaseExtremes()
+    {
+        for (const int v : _pinned)
+            _remesh.place[v].kind = VertexKind::Free;
+        _pinned.clear();
+        ExtremeCapture(_model, _remesh).Run(0.6, 30);
+    }
+
     // Section 3.4: perturb, optimise locally, keep the state only if it has the lower energy.
     bool Anneal(const Progress &progress)
     {
@@ -70,6 +90,12 @@ private:
         double bestEnergy = Energy(_remesh);
         _report.energy.assign(1, bestEnergy);
         for (int i = 0; i < _params.globalIterations; ++i) {
+            const int left = _params.globalIterations - i;
+            if (left == 9 || left == 6 || left == 3) {
+                PinExtremes();
+                best = _remesh;
+                bestEnergy = Energy(_remesh);
+            }
             _relocator.Sweep(Perturbation{_params.lambda, _random});
             OptimizeLocally();
             const double energy = Energy(_remesh);
@@ -84,6 +110,10 @@ private:
             if (!progress(static_cast<double>(i + 1) / _params.globalIterations))
                 return false;
         }
+        ReleaseExtremes();
+        AnglePolish polish(_model, _remesh);
+        polish.Run(34, 0.1, 20);
+        polish.Run(30, 0.3, 20);
         return true;
     }
 };

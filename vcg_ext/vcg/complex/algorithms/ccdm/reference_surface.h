@@ -18,13 +18,6 @@ struct SurfacePoint {
     double weight[3] = {1, 0, 0};
 };
 
-/// A point of a triangle nearest to some other point.
-struct Foot {
-    Point point;
-    double weight[3];
-    double squaredDistance;
-};
-
 /// The input, frozen: what every vertex of the remesh lies on. Constant once its features are set.
 class ReferenceSurface
 {
@@ -73,13 +66,13 @@ public:
 
     /// Moves a point of the surface towards `target`: the point nearest to `target` in the part of
     /// {y on the surface: |y - target| <= |x - target|} that is connected to x without crossing a
-    /// feature, so it cannot jump to another sheet. The search stops early once it stands within a
-    /// quarter of the step from the target.
+    /// feature, so it cannot jump to another sheet. The search stops early once it stands within
+    /// `slack` times the step from the target.
     /// `from` is x's face, `x` its position. Returns the foot and its face.
-    std::pair<int, Foot> Project(int from, const Point &x, const Point &target) const
+    std::pair<int, Foot> Project(int from, const Point &x, const Point &target, double slack = 0.25) const
     {
         const double reach = SquaredNorm(x - target);
-        const double good = reach / 16;
+        const double good = reach * slack * slack;
         int bestFace = from;
         Foot best = NearestOn(from, target);
         if (best.squaredDistance <= good)
@@ -139,35 +132,11 @@ public:
         return {bestFace, best};
     }
 
-    /// Nearest point of one face (Ericson 2005, "Real-time collision detection", section 5.1.5).
+    /// Nearest point of one face.
     Foot NearestOn(int face, const Point &p) const
     {
         const Facet &f = _facet[face];
-        const Point ap = p - f.origin;
-        const double d1 = Dot(f.e1, ap), d2 = Dot(f.e2, ap);
-        if (d1 <= 0 && d2 <= 0)
-            return At(f, p, 0, 0);
-        const Point bp = ap - f.e1;
-        const double d3 = Dot(f.e1, bp), d4 = Dot(f.e2, bp);
-        if (d3 >= 0 && d4 <= d3)
-            return At(f, p, 1, 0);
-        const Point cp = ap - f.e2;
-        const double d5 = Dot(f.e1, cp), d6 = Dot(f.e2, cp);
-        if (d6 >= 0 && d5 <= d6)
-            return At(f, p, 0, 1);
-        const double vc = d1 * d4 - d3 * d2;
-        if (vc <= 0 && d1 >= 0 && d3 <= 0)
-            return At(f, p, Ratio(d1, d1 - d3), 0);
-        const double vb = d5 * d2 - d1 * d6;
-        if (vb <= 0 && d2 >= 0 && d6 <= 0)
-            return At(f, p, 0, Ratio(d2, d2 - d6));
-        const double va = d3 * d6 - d5 * d4;
-        if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-            const double s = Ratio(d4 - d3, (d4 - d3) + (d5 - d6));
-            return At(f, p, 1 - s, s);
-        }
-        const double sum = va + vb + vc;
-        return sum > 0 ? At(f, p, vb / sum, vc / sum) : At(f, p, 0, 0);
+        return NearestOnTriangle(f.origin, f.e1, f.e2, p);
     }
 
 private:
@@ -180,18 +149,6 @@ private:
         Side link[3]; // over features: none
     };
     std::vector<Facet> _facet;
-
-    static double Ratio(double a, double b) { return b > 0 ? a / b : 0; }
-    static Foot At(const Facet &f, const Point &p, double w1, double w2)
-    {
-        Foot r;
-        r.point = f.origin + f.e1 * w1 + f.e2 * w2;
-        r.weight[0] = 1 - w1 - w2;
-        r.weight[1] = w1;
-        r.weight[2] = w2;
-        r.squaredDistance = SquaredNorm(p - r.point);
-        return r;
-    }
 };
 
 } // namespace ccdm

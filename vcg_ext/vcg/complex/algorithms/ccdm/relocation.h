@@ -43,9 +43,29 @@ public:
         for (int v = 0; v < count; ++v)
             if (_remesh.place[v].kind != VertexKind::Corner) {
                 Gather(v);
-                moved += Move(v, displacement(_star, v));
+                moved += Move(v, displacement(_star, v), [](const Point &) { return true; });
             }
         return moved;
+    }
+
+    /// Moves v by `size` times its mean edge length in the direction `angle` of its tangent plane if
+    /// score(star, position relative to v) rises by that. For searches of single vertices.
+    template <class Score>
+    bool TryShift(int v, double size, double angle, Score score)
+    {
+        Gather(v);
+        const Point step = TangentStep(_star, angle) * (size * _star.radius);
+        const double before = score(_star, Point(0, 0, 0));
+        return Move(v, step, [&](const Point &q) { return score(_star, q) > before + 1e-6; });
+    }
+
+    /// Unit vector at `angle` in the tangent plane of a star.
+    static Point TangentStep(const LocalStar &star, double angle)
+    {
+        const Point n = Normalized(star.normal);
+        const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
+        const Point t1 = Normalized(Cross(n, axis)), t2 = Cross(n, t1);
+        return t1 * std::cos(angle) + t2 * std::sin(angle);
     }
 
 private:
@@ -125,17 +145,21 @@ private:
         return start;
     }
 
-    bool Move(int v, Point step)
+    // `accept` has the last word on a position, given relative to the vertex.
+    template <class Accept>
+    bool Move(int v, Point step, const Accept &accept)
     {
         if (!(SquaredNorm(step) > 0))
             return false;
         const double limit = 0.5 * _star.radius, length = Norm(step);
         if (length > limit)
             step *= limit / length;
-        return _remesh.place[v].kind == VertexKind::Free ? MoveFree(v, step) : Slide(v, step);
+        return _remesh.place[v].kind == VertexKind::Free ? MoveFree(v, step, accept)
+                                                                   : Slide(v, step, accept);
     }
 
-    bool MoveFree(int v, Point step)
+    template <class Accept>
+    bool MoveFree(int v, Point step, const Accept &accept)
     {
         const Point x = _remesh.position[v];
         // The part along the star's normal would shrink curved and thin parts.
@@ -145,7 +169,7 @@ private:
         MeasureFacing(false);
         for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
             const auto [face, foot] = _model.surface.Project(_remesh.place[v].face, x, x + step);
-            if (!KeepsStar(foot.point - x))
+            if (!KeepsStar(foot.point - x) || !accept(foot.point - x))
                 continue;
             _remesh.position[v] = foot.point;
             _remesh.place[v].face = face;
@@ -160,7 +184,8 @@ private:
         return false;
     }
 
-    bool Slide(int v, Point step)
+    template <class Accept>
+    bool Slide(int v, Point step, const Accept &accept)
     {
         const Point x = _remesh.position[v];
         Place place = _remesh.place[v];
@@ -176,7 +201,7 @@ private:
             const Point &b = _model.surface.position[c.vertex[segment + 1]];
             const double t = c.Fraction(segment, s);
             const Point q = a + (b - a) * t;
-            if (!KeepsStar(q - x))
+            if (!KeepsStar(q - x) || !accept(q - x))
                 continue;
             place.s = s;
             place.segment = segment;
@@ -308,10 +333,7 @@ struct Perturbation {
     Point operator()(const LocalStar &star, int) const
     {
         const double u = random.Unit(), angle = 2 * Pi * random.Unit();
-        const Point n = Normalized(star.normal);
-        const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
-        const Point t1 = Normalized(Cross(n, axis)), t2 = Cross(n, t1);
-        return (t1 * std::cos(angle) + t2 * std::sin(angle)) * (lambda * star.radius * u);
+        return Relocator::TangentStep(star, angle) * (lambda * star.radius * u);
     }
 };
 

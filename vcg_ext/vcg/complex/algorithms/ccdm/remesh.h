@@ -2,6 +2,7 @@
 #ifndef VCG_CCDM_REMESH_H
 #define VCG_CCDM_REMESH_H
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -44,6 +45,27 @@ struct Model {
     FeatureGraph features;
     DensityField density;
 };
+
+/// Squared distance from the surface of a point near vertex v, along the sheet that v lies on.
+inline double SquaredDistanceNear(const Model &model, const Remesh &remesh, int v, const Point &p)
+{
+    return model.surface.Project(remesh.place[v].face, remesh.position[v], p, 0).second.squaredDistance;
+}
+
+/// Largest squared distance from the surface of a star's triangles, as seen at their centroids and at
+/// the middles of their sides.
+inline double StarSquaredDistance(const Model &model, const Remesh &remesh, int v, const Star &star)
+{
+    double worst = 0;
+    const Point &x = remesh.position[v];
+    for (int k = 0; k < star.Triangles(); ++k) {
+        const Point &a = remesh.position[star.outer[k]], &b = remesh.position[star.OuterAfter(k)];
+        const int from = remesh.place[v].kind == VertexKind::Free ? v : star.outer[k];
+        for (const Point &p : {Point((x + a + b) / 3), Point((x + a) / 2), Point((a + b) / 2)})
+            worst = std::max(worst, SquaredDistanceNear(model, remesh, from, p));
+    }
+    return worst;
+}
 
 } // namespace ccdm
 } // namespace vcg

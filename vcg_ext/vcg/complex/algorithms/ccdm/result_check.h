@@ -13,7 +13,7 @@ namespace ccdm {
 /// Proof of a result before it is handed out.
 struct ResultCheck {
     TopologyCounts topology;
-    int foldedEdges = 0; ///< edges, features apart, whose faces turn by more than 150 degrees
+    int foldedEdges = 0; ///< edges whose faces turn by more than 150 degrees
     std::string fault;   ///< the first thing found wrong; empty when all is well
 
     ResultCheck(const Model &model, const Remesh &remesh)
@@ -30,7 +30,7 @@ struct ResultCheck {
         for (int t = 0; t < remesh.mesh.TriangleCount(); ++t)
             for (int e = 0; e < 3; ++e) {
                 const Side s = MakeSide(t, e), mate = remesh.mesh.Mate(s);
-                if (mate > s && !remesh.mesh.Constrained(s))
+                if (mate > s)
                     foldedEdges += Turn(remesh, s) > 150 * Pi / 180;
             }
     }
