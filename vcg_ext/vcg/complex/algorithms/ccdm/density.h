@@ -46,7 +46,7 @@ inline bool StarCurvature(const ReferenceSurface &surface, int v, const Star &st
 /// phi = sqrt(|K| + H^2) at each reference vertex (paper, section 3.2). K is the angle deficit over a
 /// third of the star's area, H a quarter of the sum of turn * length over that area. Feature edges do
 /// not count as curvature: their vertices take the mean of their neighbours. The field is smoothed
-/// three times and clamped to its 2nd and 98th percentile by area and to a hundredth of the latter,
+/// three times and clamped to its 2nd and 99.5th percentile by area and to a hundredth of the latter,
 /// so that it is positive and no sliver owns the budget.
 inline std::vector<double> CurvatureDensity(const ReferenceSurface &surface)
 {
@@ -95,7 +95,7 @@ inline std::vector<double> CurvatureDensity(const ReferenceSurface &surface)
         }
         return sorted.empty() ? 1.0 : sorted.back().first;
     };
-    const double high = percentile(0.98), low = std::max(percentile(0.02), 0.01 * high);
+    const double high = percentile(0.995), low = std::max(percentile(0.02), 0.01 * high);
     for (double &x : phi)
         x = high > 0 ? std::clamp(x, low, high) : 1.0;
     return phi;

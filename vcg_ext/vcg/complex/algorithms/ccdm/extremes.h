@@ -19,17 +19,20 @@ class ExtremeCapture
 public:
     ExtremeCapture(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh) { PlaceProbes(); }
 
-    /// Finds the probes furthest from the remesh, those beyond `share` of the largest
+    /// Finds the probes furthest from the remesh, those beyond `outlier` times the root mean square
     /// distance, and moves the nearest free vertex onto each, if the star stays well shaped (no
     /// angle under `minAngle` degrees that was not there) and nothing else around gets further away.
     /// Returns the vertices that now sit on a tip.
-    std::vector<int> Run(double share, double minAngle)
+    std::vector<int> Run(double outlier, double minAngle)
     {
         FindOwners();
-        const double largest = _distance.empty() ? 0 : *std::max_element(_distance.begin(), _distance.end());
+        double squares = 0;
+        for (const double d : _distance)
+            squares += d * d;
+        const double limit = outlier * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(_distance.size(), 1)));
         std::vector<int> worst;
         for (std::size_t r = 0; r < _probe.size(); ++r)
-            if (_distance[r] > share * largest)
+            if (_distance[r] > limit)
                 worst.push_back(static_cast<int>(r));
         std::sort(worst.begin(), worst.end(), [&](int a, int b) {
             return _distance[a] != _distance[b] ? _distance[a] > _distance[b] : a < b;
@@ -194,13 +197,14 @@ private:
         return s;
     }
 
-    // Every triangle of the star still faces the way of the whole.
+    // Every triangle of the star faces the way of the whole within 78 degrees.
     bool Unfolded(int v, const Point &normal) const
     {
         const Point &x = _remesh.position[v];
         for (int k = 0; k < _star.Triangles(); ++k) {
             const Point c = Cross(_remesh.position[_star.outer[k]] - x, _remesh.position[_star.OuterAfter(k)] - x);
-            if (!(Dot(c, normal) > 0))
+            const double along = Dot(c, normal);
+            if (!(along > 0) || along * along < 0.04 * SquaredNorm(c) * SquaredNorm(normal))
                 return false;
         }
         return true;

@@ -68,7 +68,7 @@ private:
     // Vertices that are put on a tip stay there while the others settle around them.
     void PinExtremes()
     {
-        for (const int v : ExtremeCapture(_model, _remesh).Run(0.6, 20)) {
+        for (const int v : ExtremeCapture(_model, _remesh).Run(5, 24)) {
             _remesh.place[v].kind = VertexKind::Corner;
             _pinned.push_back(v);
         }
@@ -79,7 +79,7 @@ private:
         for (const int v : _pinned)
             _remesh.place[v].kind = VertexKind::Free;
         _pinned.clear();
-        ExtremeCapture(_model, _remesh).Run(0.6, 30);
+        ExtremeCapture(_model, _remesh).Run(5, 30);
     }
 
     // Section 3.4: perturb, optimise locally, keep the state only if it has the lower energy.
@@ -110,10 +110,14 @@ private:
             if (!progress(static_cast<double>(i + 1) / _params.globalIterations))
                 return false;
         }
+        OptimizeLocally();
         ReleaseExtremes();
-        AnglePolish polish(_model, _remesh);
-        polish.Run(34, 0.1, 20);
-        polish.Run(30, 0.3, 20);
+        Polish polish(_model, _remesh);
+        polish.Unfold(10);
+        polish.Approach(5, 30, 5);
+        polish.RaiseAngles(34, 0.1, 20);
+        polish.RaiseAngles(30, 0.3, 20);
+        polish.RaiseAngles(30, 1.0, 20);
         return true;
     }
 };

@@ -12,17 +12,17 @@
 namespace vcg {
 namespace ccdm {
 
-/// Raises the smallest angles of a remesh: the triangles under a wanted angle get better by a flip or
-/// by a small move of one of their vertices, until none can.
-class AnglePolish
+/// Mends the worst places of a remesh: triangles under a wanted angle, and folds, get better by a flip
+/// or by a small move of one of their vertices, until none can.
+class Polish
 {
 public:
-    AnglePolish(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh), _relocator(model, remesh) {}
+    Polish(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh), _relocator(model, remesh) {}
 
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
     /// change may take the mesh no further from the surface than it was, or than `stray` times an edge
     /// length. Returns the number of triangles that stay under the angle.
-    int Run(double degrees, double stray, int rounds)
+    int RaiseAngles(double degrees, double stray, int rounds)
     {
         _stray = stray * stray;
         const double cosine = std::cos(degrees * Pi / 180);
@@ -44,7 +44,72 @@ public:
         return static_cast<int>(bad.size());
     }
 
+    /// Opens the edges, features apart, whose faces turn by more than 150 degrees, by moving the vertices
+    /// of their triangles; at most `rounds` times through them. Returns the number of edges left so.
+    int Unfold(int rounds)
+    {
+        std::vector<Side> folded;
+        for (int round = 0;; ++round) {
+            folded.clear();
+            for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t)
+                for (int e = 0; e < 3; ++e)
+                    if (_remesh.mesh.Mate(MakeSide(t, e)) > MakeSide(t, e) && TurnCosine(MakeSide(t, e)) < FoldCosine)
+                        folded.push_back(MakeSide(t, e));
+            if (folded.empty() || round == rounds)
+                break;
+            bool improved = false;
+            for (const Side s : folded)
+                if (TurnCosine(s) < FoldCosine) {
+                    const int around[4] = {_remesh.mesh.Opposite(s), _remesh.mesh.Opposite(_remesh.mesh.Mate(s)),
+                                           _remesh.mesh.Tail(s), _remesh.mesh.Head(s)};
+                    for (const int v : around)
+                        improved = Open(v) || improved;
+                }
+            if (!improved)
+                break;
+        }
+        return static_cast<int>(folded.size());
+    }
+
+    /// Brings back the triangles that bridge a notch or cut through a thin part: those whose centroid or
+    /// sides lie further from the surface than `outlier` times the root mean square over the mesh, and
+    /// than 0.6 times the largest such distance. No angle may fall under `degrees` that was not under it. Returns the number of triangles left so.
+    int Approach(double outlier, double degrees, int rounds)
+    {
+        const double cosine = std::cos(degrees * Pi / 180);
+        const int count = _remesh.mesh.TriangleCount();
+        std::vector<int> far;
+        double limit = 0;
+        for (int round = 0;; ++round) {
+            std::vector<double> distance(count);
+            double sum = 0, largest = 0;
+            for (int t = 0; t < count; ++t) {
+                sum += distance[t] = SquaredDistance(t, 0.3);
+                if (distance[t] > limit) {
+                    distance[t] = SquaredDistance(t, 0);
+                    largest = std::max(largest, distance[t]);
+                }
+            }
+            if (round == 0)
+                limit = std::max(outlier * outlier * sum / std::max(count, 1), 0.36 * largest);
+            far.clear();
+            for (int t = 0; t < count; ++t)
+                if (distance[t] > limit)
+                    far.push_back(t);
+            if (far.empty() || round == rounds)
+                break;
+            bool improved = false;
+            for (const int t : far)
+                improved = BringBack(t, cosine) || improved;
+            if (!improved)
+                break;
+        }
+        return static_cast<int>(far.size());
+    }
+
 private:
+    static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
+
     const Model &_model;
     Remesh &_remesh;
     Relocator _relocator;
@@ -75,6 +140,10 @@ private:
         bool improved = false;
         for (const int v : T.v)
             improved = Shift(v) || improved;
+        // Stuck: the neighbours' apices may make room.
+        for (int e = 0; e < 3 && !improved; ++e)
+            if (T.n[e] != NoSide)
+                improved = Shift(_remesh.mesh.Opposite(T.n[e]));
         return improved;
     }
 
@@ -94,6 +163,117 @@ private:
             return false;
         _remesh.mesh.Flip(s);
         return true;
+    }
+
+    static double TurnCosine(const Point &a, const Point &b, const Point &p, const Point &q)
+    {
+        const Point e = b - a, n1 = Cross(e, p - a), n2 = Cross(q - a, e);
+        const double scale = std::sqrt(SquaredNorm(n1) * SquaredNorm(n2));
+        return scale > 0 ? Dot(n1, n2) / scale : -1;
+    }
+    // Cosine of the turn of an edge; 1 for features and boundaries, which may turn as they like.
+    double TurnCosine(Side s) const
+    {
+        const Triangulation &m = _remesh.mesh;
+        if (m.Mate(s) == NoSide || m.Constrained(s))
+            return 1;
+        return TurnCosine(_remesh.position[m.Tail(s)], _remesh.position[m.Head(s)], _remesh.position[m.Opposite(s)],
+                          _remesh.position[m.Opposite(m.Mate(s))]);
+    }
+
+    // Pattern search for the position of v at which the sharpest turn in and around its star is least.
+    bool Open(int v)
+    {
+        if (_remesh.place[v].kind == VertexKind::Corner)
+            return false;
+        _remesh.mesh.GatherStar(v, _star);
+        Point &x = _remesh.position[v];
+        const auto score = [&](const LocalStar &, const Point &q) {
+            const Point stay = x;
+            x += q;
+            double worst = 1;
+            for (const Side c : _star.corner) {
+                const int t = SideTriangle(c);
+                for (int e = 0; e < 3; ++e)
+                    worst = std::min(worst, TurnCosine(MakeSide(t, e)));
+            }
+            x = stay;
+            return worst;
+        };
+        bool improved = false;
+        for (double size = 0.5; size > 0.02; size *= 0.5)
+            for (int k = 0; k < 6; ++k)
+                for (int repeat = 0; repeat < 4 && _relocator.TryShift(v, size, k * Pi / 3, score); ++repeat)
+                    improved = true;
+        return improved;
+    }
+
+    // With a `slack` above 0 an upper bound, found faster.
+    double SquaredDistance(int t, double slack) const
+    {
+        const Triangle &T = _remesh.mesh.triangle[t];
+        const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
+        return std::max({SquaredDistanceNear(_model, _remesh, T.v[0], (a + b + c) / 3, slack),
+                         SquaredDistanceNear(_model, _remesh, T.v[0], (a + b) / 2, slack),
+                         SquaredDistanceNear(_model, _remesh, T.v[1], (b + c) / 2, slack),
+                         SquaredDistanceNear(_model, _remesh, T.v[2], (c + a) / 2, slack)});
+    }
+
+    // Flips the side that strays furthest if the other diagonal is nearer; else shifts the corners.
+    bool BringBack(int t, double cosine)
+    {
+        for (int e = 0; e < 3; ++e) {
+            const Side s = MakeSide(t, e);
+            if (_remesh.mesh.Mate(s) == NoSide)
+                continue;
+            const Hinge h(_remesh, s);
+            const double now = SquaredDistanceNear(_model, _remesh, _remesh.mesh.Tail(s), (h.p + h.q) / 2);
+            const double then = SquaredDistanceNear(_model, _remesh, h.apexA, (h.a + h.b) / 2);
+            const double before = std::max(LargestCosine(h.a, h.p, h.q), LargestCosine(h.b, h.p, h.q));
+            const double after = std::max(LargestCosine(h.a, h.p, h.b), LargestCosine(h.a, h.b, h.q));
+            if (then < 0.5 * now && after < std::max(before, cosine) && MayFlip(_remesh, s, h)) {
+                _remesh.mesh.Flip(s);
+                return true;
+            }
+        }
+        const Triangle T = _remesh.mesh.triangle[t];
+        bool improved = false;
+        for (const int v : T.v)
+            improved = BringVertex(v, cosine) || improved;
+        return improved;
+    }
+
+    bool BringVertex(int v, double cosine)
+    {
+        if (_remesh.place[v].kind != VertexKind::Free)
+            return false;
+        _remesh.mesh.GatherStar(v, _star);
+        const auto worstAngle = [&] {
+            double worst = -1;
+            for (const Side c : _star.corner)
+                worst = std::max(worst, LargestCosine(SideTriangle(c)));
+            return worst;
+        };
+        bool improved = false;
+        for (double size = 0.3; size > 0.05; size *= 0.5)
+            for (int k = 0; k < 6; ++k) {
+                const Point start = _remesh.position[v];
+                const Place place = _remesh.place[v];
+                const double rho = _remesh.rho[v];
+                const double angle = worstAngle(), distance = StarSquaredDistance(_model, _remesh, v, _star);
+                const auto any = [](const LocalStar &, const Point &q) { return SquaredNorm(q); };
+                if (!_relocator.TryShift(v, size, k * Pi / 3, any))
+                    continue;
+                if (worstAngle() < std::max(angle, cosine) &&
+                    StarSquaredDistance(_model, _remesh, v, _star) < 0.99 * distance) {
+                    improved = true;
+                    continue;
+                }
+                _remesh.position[v] = start;
+                _remesh.place[v] = place;
+                _remesh.rho[v] = rho;
+            }
+        return improved;
     }
 
     // Pattern search in six directions of the tangent plane.

@@ -69,7 +69,7 @@ public:
     /// feature, so it cannot jump to another sheet. The search stops early once it stands within
     /// `slack` times the step from the target.
     /// `from` is x's face, `x` its position. Returns the foot and its face.
-    std::pair<int, Foot> Project(int from, const Point &x, const Point &target, double slack = 0.25) const
+    std::pair<int, Foot> Project(int from, const Point &x, const Point &target, double slack = 0.1) const
     {
         const double reach = SquaredNorm(x - target);
         const double good = reach * slack * slack;

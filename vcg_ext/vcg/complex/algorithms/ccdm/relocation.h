@@ -72,7 +72,6 @@ private:
     const Model &_model;
     Remesh &_remesh;
     LocalStar _star;
-    std::vector<double> _facing; // per triangle: area towards its sector's normal, before the move
 
     void Gather(int v)
     {
@@ -166,10 +165,9 @@ private:
         const double n2 = SquaredNorm(_star.normal);
         if (n2 > 0)
             step -= _star.normal * (Dot(_star.normal, step) / n2);
-        MeasureFacing(false);
         for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
             const auto [face, foot] = _model.surface.Project(_remesh.place[v].face, x, x + step);
-            if (!KeepsStar(foot.point - x) || !accept(foot.point - x))
+            if (!KeepsStar(foot.point - x, false) || !accept(foot.point - x))
                 continue;
             _remesh.position[v] = foot.point;
             _remesh.place[v].face = face;
@@ -190,7 +188,7 @@ private:
         const Point x = _remesh.position[v];
         Place place = _remesh.place[v];
         const FeatureCurve &c = _model.features.curve[place.curve];
-        MeasureFacing(true);
+        MeasureSectors();
         for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
             double s = place.s;
             int segment = place.segment;
@@ -201,7 +199,7 @@ private:
             const Point &b = _model.surface.position[c.vertex[segment + 1]];
             const double t = c.Fraction(segment, s);
             const Point q = a + (b - a) * t;
-            if (!KeepsStar(q - x) || !accept(q - x))
+            if (!KeepsStar(q - x, true) || !accept(q - x))
                 continue;
             place.s = s;
             place.segment = segment;
@@ -268,40 +266,49 @@ private:
         }
     }
 
-    // Normals of the sectors between feature edges (of the whole star for a free vertex), repeated for
-    // each of their triangles, and how much of each triangle faces that way.
-    void MeasureFacing(bool sectors)
+    // Sum of the cross products of each sector between feature edges, repeated for its triangles.
+    void MeasureSectors()
     {
         const int n = _star.triangles;
-        _sectorNormal.resize(n);
-        _facing.resize(n);
+        _sector.resize(n);
         for (int k = 0; k < n;) {
-            int end = sectors ? k + 1 : n;
-            Point normal = sectors ? _star.cross[k] : _star.normal;
-            while (sectors && end < n && !_star.sectorStart[end])
+            int end = k + 1;
+            Point normal = _star.cross[k];
+            while (end < n && !_star.sectorStart[end])
                 normal += _star.cross[end++];
-            const double scale = SquaredNorm(normal) / (end - k);
-            for (; k < end; ++k) {
-                _sectorNormal[k] = scale > 0 ? normal / scale : normal;
-                _facing[k] = Dot(_star.cross[k], _sectorNormal[k]);
-            }
+            for (; k < end; ++k)
+                _sector[k] = normal;
         }
     }
 
-    // Fold guard: every triangle still faces the way of its sector. Where some did not before, no such
-    // triangle may get worse and the worst must improve.
-    bool KeepsStar(const Point &move) const
+    // How well a triangle with twice the area vector c faces the way of its sector: the square of the
+    // cosine with the cosine's sign, or less if it has next to no area.
+    static double Facing(const Point &c, const Point &sector)
     {
-        const double least = 1e-3; // of the sector's mean triangle
-        double before = 1e300, after = 1e300;
+        const double along = Dot(c, sector), scale = SquaredNorm(sector);
+        if (!(along > 1e-4 * scale))
+            return std::min(along / std::max(scale, 1e-300), 0.0);
+        return along * along / (SquaredNorm(c) * scale);
+    }
+
+    // Fold guard: every triangle still faces the way of its sector (the whole star of a free vertex).
+    // Where some did not before, the worst must improve.
+    bool KeepsStar(const Point &move, bool sectors) const
+    {
+        constexpr double least = 0.04; // the square of the cosine of 78 degrees
+        double after = 1;
         for (int k = 0; k < _star.triangles; ++k) {
             const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
-            before = std::min(before, _facing[k]);
-            after = std::min(after, Dot(c, _sectorNormal[k]));
+            after = std::min(after, Facing(c, sectors ? _sector[k] : _star.normal));
         }
-        return after > least || after > before;
+        if (after >= least)
+            return true;
+        double before = 1;
+        for (int k = 0; k < _star.triangles; ++k)
+            before = std::min(before, Facing(_star.cross[k], sectors ? _sector[k] : _star.normal));
+        return after > before;
     }
-    std::vector<Point> _sectorNormal;
+    std::vector<Point> _sector;
 };
 
 /// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).

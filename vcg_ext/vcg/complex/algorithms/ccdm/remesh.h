@@ -46,10 +46,12 @@ struct Model {
     DensityField density;
 };
 
-/// Squared distance from the surface of a point near vertex v, along the sheet that v lies on.
-inline double SquaredDistanceNear(const Model &model, const Remesh &remesh, int v, const Point &p)
+/// Squared distance from the surface of a point near vertex v, along the sheet that v lies on; `slack` as
+/// for ReferenceSurface::Project.
+inline double SquaredDistanceNear(const Model &model, const Remesh &remesh, int v, const Point &p,
+                                  double slack = 0)
 {
-    return model.surface.Project(remesh.place[v].face, remesh.position[v], p, 0).second.squaredDistance;
+    return model.surface.Project(remesh.place[v].face, remesh.position[v], p, slack).second.squaredDistance;
 }
 
 /// Largest squared distance from the surface of a star's triangles, as seen at their centroids and at

@@ -83,7 +83,7 @@ private:
             return false;
         if (!Check(model, remesh))
             return false;
-        WriteBack(prepared, input, remesh, output);
+        WriteBack(prepared, remesh, output);
         Finish();
         return true;
     }
@@ -200,19 +200,22 @@ private:
             return Fail(Status::CheckFailed, "the result was thrown away: " + check.fault);
         if (!_report.topologyPreserved)
             return Fail(Status::CheckFailed, "the result was thrown away: its topology is not the input's");
+        if (check.foldedEdges > 0)
+            _report.warnings.push_back(std::to_string(check.foldedEdges) +
+                                       " edges of the result are sharper than 150 degrees, as the input is there at "
+                                       "this number of vertices");
         if (remesh.VertexCount() < _params.vertexCount)
             return Fail(Status::CheckFailed, "the result was thrown away: it has only " +
                                                  std::to_string(remesh.VertexCount()) + " vertices");
         return true;
     }
 
-    static void WriteBack(const InputMesh &prepared, const MeshTables &input, const Remesh &remesh, MeshTables &output)
+    static void WriteBack(const InputMesh &prepared, const Remesh &remesh, MeshTables &output)
     {
         MeshTables result;
         result.position.reserve(remesh.position.size());
         for (const Point &p : remesh.position)
             result.position.push_back(prepared.Restore(p));
-        (void)input;
         result.face.reserve(remesh.mesh.triangle.size());
         for (const Triangle &T : remesh.mesh.triangle)
             result.face.push_back({T.v[0], T.v[1], T.v[2]});

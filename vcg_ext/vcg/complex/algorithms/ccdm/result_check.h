@@ -2,8 +2,10 @@
 #ifndef VCG_CCDM_RESULT_CHECK_H
 #define VCG_CCDM_RESULT_CHECK_H
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
@@ -26,20 +28,60 @@ struct ResultCheck {
         for (const Point &p : remesh.position)
             if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
                 fault = "a vertex is not finite";
-        (void)model;
-        for (int t = 0; t < remesh.mesh.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e), mate = remesh.mesh.Mate(s);
-                if (mate > s)
-                    foldedEdges += Turn(remesh, s) > 150 * Pi / 180;
-            }
+        CheckFolds(model, remesh);
     }
 
-    static double Turn(const Remesh &r, Side s)
+private:
+    // A fold is right only where the input itself turns that sharply within the length of the edges
+    // around it: at a knife edge, or on a part that is thinner than the spacing.
+    void CheckFolds(const Model &model, const Remesh &remesh)
     {
-        const Triangulation &m = r.mesh;
-        return TurnAngle(r.position[m.Tail(s)], r.position[m.Head(s)], r.position[m.Opposite(s)],
-                         r.position[m.Opposite(m.Mate(s))]);
+        struct Fold {
+            Point middle;
+            double reach;
+        };
+        std::vector<Fold> folds;
+        const Triangulation &m = remesh.mesh;
+        for (int t = 0; t < m.TriangleCount(); ++t)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(t, e);
+                if (m.Mate(s) < s || !(Turn(m, remesh.position, s) > FoldTurn))
+                    continue;
+                ++foldedEdges;
+                const Point &p = remesh.position[m.Tail(s)], &q = remesh.position[m.Head(s)];
+                if (!m.Constrained(s))
+                    folds.push_back({(p + q) / 2, std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
+                                                           Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
+            }
+        int unfounded = 0;
+        for (const Fold &f : folds)
+            unfounded += !BendsNear(model, f.middle, f.reach);
+        if (unfounded > 0)
+            fault = std::to_string(unfounded) + " edges are folded where the input is not";
+    }
+
+    // Whether the input's normals within `reach` of p differ by more than 75 degrees.
+    static bool BendsNear(const Model &model, const Point &p, double reach)
+    {
+        const ReferenceSurface &surface = model.surface;
+        Point first(0, 0, 0);
+        for (int t = 0; t < surface.FaceCount(); ++t) {
+            if (surface.NearestOn(t, p).squaredDistance > reach * reach)
+                continue;
+            const Point n = Normalized(surface.AreaVector(t));
+            if (SquaredNorm(first) == 0)
+                first = n;
+            else if (SquaredNorm(n) > 0 && Dot(n, first) < 0.26)
+                return true;
+        }
+        return false;
+    }
+
+    static constexpr double FoldTurn = 150 * Pi / 180;
+
+    static double Turn(const Triangulation &m, const std::vector<Point> &x, Side s)
+    {
+        return TurnAngle(x[m.Tail(s)], x[m.Head(s)], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]);
     }
 };
 

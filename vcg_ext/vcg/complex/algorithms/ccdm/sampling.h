@@ -38,15 +38,14 @@ inline int FewestSegments(const FeatureCurve &c, const std::vector<Point> &posit
 
 /// Spaces samples along a curve evenly in the measure ds / h, as many as that measure holds, rounded
 /// [AdVDI03].
-inline void SampleCurve(const ReferenceSurface &surface, const DensityField &density, const FeatureCurve &c, int index,
-                        int fewest, std::vector<CurveSample> &out)
+inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int index, int fewest,
+                        std::vector<CurveSample> &out)
 {
     std::vector<double> measure(c.vertex.size(), 0);
     for (int k = 0; k < c.Segments(); ++k) {
         const double h = 0.5 * (density.spacing[c.vertex[k]] + density.spacing[c.vertex[k + 1]]);
         measure[k + 1] = measure[k] + (c.arc[k + 1] - c.arc[k]) / h;
     }
-    (void)surface;
     const double total = measure.back();
     const int segments = std::max(fewest, static_cast<int>(std::lround(total)));
     int k = 0;
@@ -73,7 +72,7 @@ inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, co
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const FeatureCurve &c = features.curve[i];
         const auto range = std::equal_range(sorted.begin(), sorted.end(), ends[i]);
-        SampleCurve(surface, density, c, static_cast<int>(i),
+        SampleCurve(density, c, static_cast<int>(i),
                     FewestSegments(c, surface.position, range.second - range.first > 1), samples);
     }
     return samples;
