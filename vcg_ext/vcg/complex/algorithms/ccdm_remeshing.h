@@ -33,9 +33,8 @@ public:
     static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr)
     {
         ccdm::MeshTables result;
-        ccdm::Remesher remesher(params, [progress](int at, const char *phase) {
-            return progress == nullptr || progress(at, phase);
-        });
+        ccdm::Remesher remesher(
+            params, [progress](int at, const char *phase) { return progress == nullptr || progress(at, phase); });
         Report report = remesher.Run(Import(input, params), result);
         if (report.status == ccdm::Status::Done)
             Export(result, output);

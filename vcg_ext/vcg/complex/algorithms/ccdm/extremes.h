@@ -29,14 +29,14 @@ public:
         double squares = 0;
         for (const double d : _distance)
             squares += d * d;
-        const double limit = outlier * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(_distance.size(), 1)));
+        const double limit =
+            outlier * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(_distance.size(), 1)));
         std::vector<int> worst;
         for (std::size_t r = 0; r < _probe.size(); ++r)
             if (_distance[r] > limit)
                 worst.push_back(static_cast<int>(r));
-        std::sort(worst.begin(), worst.end(), [&](int a, int b) {
-            return _distance[a] != _distance[b] ? _distance[a] > _distance[b] : a < b;
-        });
+        std::sort(worst.begin(), worst.end(),
+                  [&](int a, int b) { return _distance[a] != _distance[b] ? _distance[a] > _distance[b] : a < b; });
         std::vector<int> captured;
         std::vector<char> settled(_remesh.VertexCount(), 0);
         const std::size_t most = static_cast<std::size_t>(_remesh.VertexCount()) / 1000 + 1;
@@ -90,7 +90,8 @@ private:
                     continue;
                 const int parts = static_cast<int>(std::min(length / h, 1000.0)) + 1;
                 for (int k = 1; k < parts; ++k)
-                    _probe.push_back({x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), t, 2 * k < parts ? a : b});
+                    _probe.push_back(
+                        {x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), t, 2 * k < parts ? a : b});
             }
     }
 
@@ -141,8 +142,7 @@ private:
                 const Point &p = _model.surface.position[r];
                 if (near[r] < 0)
                     queue.push_back(r);
-                if (near[r] < 0 ||
-                    SquaredNorm(_remesh.position[v] - p) < SquaredNorm(_remesh.position[near[r]] - p))
+                if (near[r] < 0 || SquaredNorm(_remesh.position[v] - p) < SquaredNorm(_remesh.position[near[r]] - p))
                     near[r] = v;
             }
         for (std::size_t k = 0; k < queue.size(); ++k)

@@ -150,7 +150,7 @@ private:
     const SideMarks &_marked;
     const double _cornerAngle;
     FeatureGraph _graph;
-    std::vector<int> _first;     // spokes of vertex v: _first[v] to _first[v + 1]
+    std::vector<int> _first; // spokes of vertex v: _first[v] to _first[v + 1]
     std::vector<Spoke> _spoke;
     std::vector<char> _isCorner; // per reference vertex
 

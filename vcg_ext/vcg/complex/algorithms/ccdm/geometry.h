@@ -15,13 +15,22 @@ namespace ccdm {
 
 constexpr double Pi = 3.14159265358979323846;
 
-inline double Dot(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double Dot(const Point &a, const Point &b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 inline Point Cross(const Point &a, const Point &b)
 {
     return Point(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
 }
-inline double SquaredNorm(const Point &a) { return Dot(a, a); }
-inline double Norm(const Point &a) { return std::sqrt(SquaredNorm(a)); }
+inline double SquaredNorm(const Point &a)
+{
+    return Dot(a, a);
+}
+inline double Norm(const Point &a)
+{
+    return std::sqrt(SquaredNorm(a));
+}
 inline Point Normalized(const Point &a)
 {
     const double l = Norm(a);

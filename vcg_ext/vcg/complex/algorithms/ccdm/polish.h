@@ -73,7 +73,8 @@ public:
 
     /// Brings back the triangles that bridge a notch or cut through a thin part: those whose centroid or
     /// sides lie further from the surface than `outlier` times the root mean square over the mesh, and
-    /// than 0.6 times the largest such distance. No angle may fall under `degrees` that was not under it. Returns the number of triangles left so.
+    /// than 0.6 times the largest such distance. No angle may fall under `degrees` that was not under it. Returns the
+    /// number of triangles left so.
     int Approach(double outlier, double degrees, int rounds)
     {
         const double cosine = std::cos(degrees * Pi / 180);

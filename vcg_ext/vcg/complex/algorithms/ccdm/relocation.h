@@ -153,8 +153,7 @@ private:
         const double limit = 0.5 * _star.radius, length = Norm(step);
         if (length > limit)
             step *= limit / length;
-        return _remesh.place[v].kind == VertexKind::Free ? MoveFree(v, step, accept)
-                                                                   : Slide(v, step, accept);
+        return _remesh.place[v].kind == VertexKind::Free ? MoveFree(v, step, accept) : Slide(v, step, accept);
     }
 
     template <class Accept>

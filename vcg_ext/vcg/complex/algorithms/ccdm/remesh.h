@@ -48,8 +48,7 @@ struct Model {
 
 /// Squared distance from the surface of a point near vertex v, along the sheet that v lies on; `slack` as
 /// for ReferenceSurface::Project.
-inline double SquaredDistanceNear(const Model &model, const Remesh &remesh, int v, const Point &p,
-                                  double slack = 0)
+inline double SquaredDistanceNear(const Model &model, const Remesh &remesh, int v, const Point &p, double slack = 0)
 {
     return model.surface.Project(remesh.place[v].face, remesh.position[v], p, slack).second.squaredDistance;
 }

@@ -125,8 +125,7 @@ private:
             if (n > 0)
                 _report.warnings.push_back(std::to_string(n) + " " + (n == 1 ? one : many));
         };
-        warn(d.unreferencedVertices, "vertex that no face uses was dropped",
-             "vertices that no face uses were dropped");
+        warn(d.unreferencedVertices, "vertex that no face uses was dropped", "vertices that no face uses were dropped");
         warn(d.repeatedIndexFaces, "face that names a vertex twice was dropped",
              "faces that name a vertex twice were dropped");
         warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
@@ -184,10 +183,10 @@ private:
         int onFeatures = 0;
         for (const Place &p : remesh.place)
             onFeatures += p.kind != VertexKind::Free;
-        _report.warnings.push_back(
-            std::to_string(remesh.VertexCount()) + " vertices instead of " + std::to_string(_params.vertexCount) +
-            ": the topology and the " + std::to_string(model.features.curve.size()) +
-            " feature curves (with " + std::to_string(onFeatures) + " vertices) need them");
+        _report.warnings.push_back(std::to_string(remesh.VertexCount()) + " vertices instead of " +
+                                   std::to_string(_params.vertexCount) + ": the topology and the " +
+                                   std::to_string(model.features.curve.size()) + " feature curves (with " +
+                                   std::to_string(onFeatures) + " vertices) need them");
     }
 
     bool Check(const Model &model, const Remesh &remesh)

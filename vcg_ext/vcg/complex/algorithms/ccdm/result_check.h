@@ -51,7 +51,7 @@ private:
                 const Point &p = remesh.position[m.Tail(s)], &q = remesh.position[m.Head(s)];
                 if (!m.Constrained(s))
                     folds.push_back({(p + q) / 2, std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
-                                                           Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
+                                                            Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
             }
         int unfounded = 0;
         for (const Fold &f : folds)

@@ -21,11 +21,26 @@ using Point = Point3<double>;
 /// Side of a triangle: 4 * triangle + local index of the opposite vertex; -1 is no side.
 using Side = int;
 constexpr Side NoSide = -1;
-inline Side MakeSide(int t, int e) { return 4 * t + e; }
-inline int SideTriangle(Side s) { return s >> 2; }
-inline int SideEdge(Side s) { return s & 3; }
-inline int Next(int i) { return i == 2 ? 0 : i + 1; }
-inline int Prev(int i) { return i == 0 ? 2 : i - 1; }
+inline Side MakeSide(int t, int e)
+{
+    return 4 * t + e;
+}
+inline int SideTriangle(Side s)
+{
+    return s >> 2;
+}
+inline int SideEdge(Side s)
+{
+    return s & 3;
+}
+inline int Next(int i)
+{
+    return i == 2 ? 0 : i + 1;
+}
+inline int Prev(int i)
+{
+    return i == 0 ? 2 : i - 1;
+}
 
 /// A triangle: its vertices, and for each side the side that it is glued to.
 /// Gluing carries no orientation, so that a non-orientable surface needs no special case.
@@ -80,12 +95,8 @@ public:
             }
         // Sides bucketed by their smaller vertex: linear, and no hashing.
         std::vector<int> start(vertexCount + 1, 0);
-        auto low = [&](int t, int e) {
-            return std::min(triangle[t].v[Next(e)], triangle[t].v[Prev(e)]);
-        };
-        auto high = [&](int t, int e) {
-            return std::max(triangle[t].v[Next(e)], triangle[t].v[Prev(e)]);
-        };
+        auto low = [&](int t, int e) { return std::min(triangle[t].v[Next(e)], triangle[t].v[Prev(e)]); };
+        auto high = [&](int t, int e) { return std::max(triangle[t].v[Next(e)], triangle[t].v[Prev(e)]); };
         const int count = TriangleCount();
         for (int t = 0; t < count; ++t)
             for (int e = 0; e < 3; ++e)

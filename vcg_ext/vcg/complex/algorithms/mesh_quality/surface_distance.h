@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_MESH_QUALITY_SURFACE_DISTANCE_H
+#define VCG_MESH_QUALITY_SURFACE_DISTANCE_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <vcg/space/point3.h>
+
+namespace vcg {
+namespace tri {
+
+/// The triangles of a mesh as plain tables, deleted elements left out.
+struct TriangleSoup {
+    using Vector = Point3<double>;
+    using Face = std::array<int, 3>;
+    std::vector<Vector> point;
+    std::vector<Face> face;
+
+    template <class MeshType>
+    static TriangleSoup From(const MeshType &m)
+    {
+        TriangleSoup s;
+        std::vector<int> index(m.vert.size(), -1);
+        for (std::size_t i = 0; i < m.vert.size(); ++i)
+            if (!m.vert[i].IsD()) {
+                index[i] = static_cast<int>(s.point.size());
+                const auto &p = m.vert[i].cP();
+                s.point.push_back(Vector(p[0], p[1], p[2]));
+            }
+        for (const auto &f : m.face)
+            if (!f.IsD())
+                s.face.push_back(
+                    {index[f.cV(0) - m.vert.data()], index[f.cV(1) - m.vert.data()], index[f.cV(2) - m.vert.data()]});
+        return s;
+    }
+
+    std::vector<char> Referenced() const
+    {
+        std::vector<char> used(point.size(), 0);
+        for (const Face &f : face)
+            for (const int v : f)
+                used[v] = 1;
+        return used;
+    }
+
+    /// Of the bounding box of the vertices that faces use.
+    double Diagonal() const
+    {
+        Vector low(0, 0, 0), high(0, 0, 0);
+        bool first = true;
+        const std::vector<char> used = Referenced();
+        for (std::size_t v = 0; v < point.size(); ++v) {
+            if (!used[v])
+                continue;
+            for (int k = 0; k < 3; ++k) {
+                low[k] = first ? point[v][k] : std::min(low[k], point[v][k]);
+                high[k] = first ? point[v][k] : std::max(high[k], point[v][k]);
+            }
+            first = false;
+        }
+        return (high - low).Norm();
+    }
+};
+
+/// Bounding volume hierarchy over triangles for nearest-point queries; boxes in single precision,
+/// rounded outwards, so that a node is 32 bytes.
+class TriangleTree
+{
+public:
+    using Vector = TriangleSoup::Vector;
+
+    explicit TriangleTree(const TriangleSoup &soup)
+    {
+        const std::size_t n = soup.face.size();
+        std::vector<Vector> centre(n);
+        std::vector<int> order(n);
+        std::iota(order.begin(), order.end(), 0);
+        for (std::size_t t = 0; t < n; ++t)
+            for (const int v : soup.face[t])
+                centre[t] += soup.point[v] / 3.0;
+        _node.reserve(n);
+        if (n > 0)
+            Split(soup, centre, order, 0, static_cast<int>(n));
+        _corner.reserve(n);
+        for (const int t : order) {
+            const auto &f = soup.face[t];
+            _corner.push_back({soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]});
+        }
+    }
+
+    /// Squared distance of p from the triangles; `hint` is the number of a triangle likely to be near
+    /// (-1: none) and becomes that of the nearest.
+    double SquaredDistance(const Vector &p, int &hint) const
+    {
+        double best = hint >= 0 ? SquaredDistance(p, _corner[hint]) : std::numeric_limits<double>::max();
+        int stack[64], top = 0;
+        stack[top++] = 0;
+        while (top > 0) {
+            const Node &n = _node[stack[--top]];
+            if (Away(n, p) >= best)
+                continue;
+            if (n.count > 0) {
+                for (int k = n.first; k < n.first + n.count; ++k) {
+                    const double d = SquaredDistance(p, _corner[k]);
+                    if (d < best) {
+                        best = d;
+                        hint = k;
+                    }
+                }
+                continue;
+            }
+            const int left = static_cast<int>(&n - _node.data()) + 1, right = n.first;
+            const bool leftFirst = Away(_node[left], p) <= Away(_node[right], p);
+            stack[top++] = leftFirst ? right : left;
+            stack[top++] = leftFirst ? left : right;
+        }
+        return best;
+    }
+
+private:
+    struct Node {
+        float low[3], high[3];
+        int first = 0; // leaf: first triangle; else the right child (the left one follows its parent)
+        int count = 0; // leaf: number of triangles; else 0
+    };
+    using Corners = std::array<Vector, 3>;
+    std::vector<Node> _node;
+    std::vector<Corners> _corner;
+
+    static double Away(const Node &n, const Vector &p)
+    {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double d = std::max({n.low[k] - p[k], 0.0, p[k] - n.high[k]});
+            sum += d * d;
+        }
+        return sum;
+    }
+
+    int Split(const TriangleSoup &soup, const std::vector<Vector> &centre, std::vector<int> &order, int from, int to)
+    {
+        const int id = static_cast<int>(_node.size());
+        _node.emplace_back();
+        Node n;
+        Vector low = centre[order[from]], high = low;
+        for (int k = 0; k < 3; ++k) {
+            double a = std::numeric_limits<double>::max(), b = -a;
+            for (int i = from; i < to; ++i) {
+                for (const int v : soup.face[order[i]]) {
+                    a = std::min(a, soup.point[v][k]);
+                    b = std::max(b, soup.point[v][k]);
+                }
+                low[k] = std::min(low[k], centre[order[i]][k]);
+                high[k] = std::max(high[k], centre[order[i]][k]);
+            }
+            constexpr float infinity = std::numeric_limits<float>::infinity();
+            n.low[k] = std::nextafter(static_cast<float>(a), -infinity);
+            n.high[k] = std::nextafter(static_cast<float>(b), infinity);
+        }
+        if (to - from <= 4) {
+            n.first = from;
+            n.count = to - from;
+        } else {
+            const Vector size = high - low;
+            const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+            const int middle = (from + to) / 2;
+            std::nth_element(order.begin() + from, order.begin() + middle, order.begin() + to,
+                             [&](int x, int y) { return centre[x][axis] < centre[y][axis]; });
+            Split(soup, centre, order, from, middle);
+            n.first = Split(soup, centre, order, middle, to);
+        }
+        _node[id] = n;
+        return id;
+    }
+
+    static double SquaredDistance(const Vector &p, const Vector &a, const Vector &b)
+    {
+        const Vector d = b - a, w = p - a;
+        const double l = d.SquaredNorm();
+        const double t = l > 0 ? std::clamp((w * d) / l, 0.0, 1.0) : 0;
+        return (w - d * t).SquaredNorm();
+    }
+
+    // From the plane inside the prism over the triangle, else from its sides.
+    static double SquaredDistance(const Vector &p, const Corners &c)
+    {
+        const Vector n = (c[1] - c[0]) ^ (c[2] - c[0]);
+        const double n2 = n.SquaredNorm();
+        bool inside = n2 > 0;
+        for (int k = 0; k < 3 && inside; ++k)
+            inside = ((c[(k + 1) % 3] - c[k]) ^ (p - c[k])) * n >= 0;
+        if (inside) {
+            const double h = (p - c[0]) * n;
+            return h * h / n2;
+        }
+        return std::min(
+            {SquaredDistance(p, c[0], c[1]), SquaredDistance(p, c[1], c[2]), SquaredDistance(p, c[2], c[0])});
+    }
+};
+
+/// One-sided distance of a surface.
+struct Deviation {
+    double max = 0;
+    double rms = 0;
+};
+
+/// Distances of the surface a: of `samples` points in equal strides of its area, placed in their
+/// triangles by a low-discrepancy sequence, and of its vertices, which count for the maximum only.
+inline Deviation MeasureDeviation(const TriangleSoup &a, const TriangleTree &tree, int samples)
+{
+    using Vector = TriangleSoup::Vector;
+    std::vector<double> area(a.face.size());
+    double total = 0;
+    for (std::size_t t = 0; t < a.face.size(); ++t) {
+        const auto &f = a.face[t];
+        total += ((a.point[f[1]] - a.point[f[0]]) ^ (a.point[f[2]] - a.point[f[0]])).Norm() / 2;
+        area[t] = total;
+    }
+    double largest = 0, squares = 0;
+    int hint = -1;
+    std::size_t t = 0;
+    for (int i = 0; i < samples && total > 0; ++i) {
+        const double want = total * (i + 0.5) / samples;
+        while (t + 1 < area.size() && area[t] < want)
+            ++t;
+        // The plastic number's fractions fill the unit square evenly (Roberts 2018).
+        double u = std::fmod(0.5 + 0.7548776662466927 * (i + 1), 1.0),
+               w = std::fmod(0.5 + 0.5698402909980532 * (i + 1), 1.0);
+        if (u + w > 1) {
+            u = 1 - u;
+            w = 1 - w;
+        }
+        const auto &f = a.face[t];
+        const Vector p = a.point[f[0]] + (a.point[f[1]] - a.point[f[0]]) * u + (a.point[f[2]] - a.point[f[0]]) * w;
+        const double d = tree.SquaredDistance(p, hint);
+        largest = std::max(largest, d);
+        squares += d;
+    }
+    const std::vector<char> used = a.Referenced();
+    for (std::size_t v = 0; v < a.point.size(); ++v)
+        if (used[v])
+            largest = std::max(largest, tree.SquaredDistance(a.point[v], hint));
+    return {std::sqrt(largest), samples > 0 ? std::sqrt(squares / samples) : 0};
+}
+
+} // namespace tri
+} // namespace vcg
+
+#endif
