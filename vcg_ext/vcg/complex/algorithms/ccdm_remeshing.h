@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
 
 #include <vcg/complex/algorithms/ccdm/remesher.h>

@@ -27,6 +27,8 @@ public:
         _stray = stray * stray;
         const double cosine = std::cos(degrees * Pi / 180);
         std::vector<int> bad;
+        // A triangle that could not be helped twice is left alone.
+        std::vector<char> failures(_remesh.mesh.TriangleCount(), 0);
         for (int round = 0;; ++round) {
             bad.clear();
             for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t)
@@ -36,8 +38,11 @@ public:
                 break;
             bool improved = false;
             for (const int t : bad)
-                if (LargestCosine(t) > cosine)
-                    improved = Improve(t) || improved;
+                if (LargestCosine(t) > cosine && failures[t] < 2) {
+                    const bool helped = Improve(t);
+                    failures[t] = static_cast<char>(helped ? 0 : failures[t] + 1);
+                    improved = improved || helped;
+                }
             if (!improved)
                 break;
         }
@@ -270,9 +275,7 @@ private:
                     improved = true;
                     continue;
                 }
-                _remesh.position[v] = start;
-                _remesh.place[v] = place;
-                _remesh.rho[v] = rho;
+                SetVertex(v, start, place, rho);
             }
         return improved;
     }
@@ -282,11 +285,9 @@ private:
     {
         if (_remesh.place[v].kind == VertexKind::Corner)
             return false;
-        _remesh.mesh.GatherStar(v, _star);
         const Point start = _remesh.position[v];
         const Place place = _remesh.place[v];
         const double rho = _remesh.rho[v];
-        const double far = StarSquaredDistance(_model, _remesh, v, _star);
         const auto score = [](const LocalStar &s, const Point &q) {
             double worst = -1;
             for (int i = 0; i < s.triangles; ++i)
@@ -298,14 +299,28 @@ private:
             for (int k = 0; k < 6; ++k)
                 for (int repeat = 0; repeat < 8 && _relocator.TryShift(v, size, k * Pi / 3, score); ++repeat)
                     improved = true;
-        const double edge = SquaredNorm(_remesh.position[v] - _remesh.position[_star.outer[0]]);
-        if (improved && StarSquaredDistance(_model, _remesh, v, _star) > std::max(far, _stray * edge)) {
-            _remesh.position[v] = start;
-            _remesh.place[v] = place;
-            _remesh.rho[v] = rho;
+        if (!improved)
             return false;
-        }
-        return improved;
+        _remesh.mesh.GatherStar(v, _star);
+        const double edge = SquaredNorm(_remesh.position[v] - _remesh.position[_star.outer[0]]);
+        const double distance = StarSquaredDistance(_model, _remesh, v, _star);
+        if (distance <= _stray * edge)
+            return true;
+        const Point end = _remesh.position[v];
+        const Place endPlace = _remesh.place[v];
+        const double endRho = _remesh.rho[v];
+        SetVertex(v, start, place, rho);
+        if (distance > StarSquaredDistance(_model, _remesh, v, _star))
+            return false;
+        SetVertex(v, end, endPlace, endRho);
+        return true;
+    }
+
+    void SetVertex(int v, const Point &position, const Place &place, double rho)
+    {
+        _remesh.position[v] = position;
+        _remesh.place[v] = place;
+        _remesh.rho[v] = rho;
     }
 };
 

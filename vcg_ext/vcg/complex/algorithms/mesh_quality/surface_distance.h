@@ -78,7 +78,7 @@ public:
     explicit TriangleTree(const TriangleSoup &soup)
     {
         const std::size_t n = soup.face.size();
-        std::vector<Vector> centre(n);
+        std::vector<Vector> centre(n, Vector(0, 0, 0));
         std::vector<int> order(n);
         std::iota(order.begin(), order.end(), 0);
         for (std::size_t t = 0; t < n; ++t)

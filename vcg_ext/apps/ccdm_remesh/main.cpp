@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ccdm_remesh INPUT OUTPUT -n N: the remesher as a command, without Qt and without a display.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include <vcg/complex/algorithms/ccdm_remeshing.h>
+#include <vcg/complex/algorithms/mesh_quality.h>
+
+#include "mesh_io.h"
+#include "options.h"
+#include "platform.h"
+#include "report.h"
+
+namespace {
+
+using namespace ccdm_remesh;
+using vcg::ccdm::Status;
+using Remeshing = vcg::tri::CCDMRemeshing<Mesh>;
+using Quality = vcg::tri::MeshQuality<Mesh>;
+
+enum ExitStatus { Done = 0, WrongUsage = 2, Unreadable = 3, Refused = 4, NotWritten = 5, CheckFailed = 6, Interrupted = 130 };
+
+volatile std::sig_atomic_t interrupted = 0;
+bool showProgress = false;
+
+bool OnProgress(const int at, const char *phase)
+{
+    if (showProgress) {
+        std::fprintf(stderr, "\r[%-40.*s] %3d%% %-28s", at * 40 / 100, "########################################", at, phase);
+        if (at == 100)
+            std::fputc('\n', stderr);
+    }
+    return interrupted == 0;
+}
+
+int ExitStatusOf(Status s)
+{
+    switch (s) {
+    case Status::Done:
+        return Done;
+    case Status::Cancelled:
+        return Interrupted;
+    case Status::InvalidParameter:
+        return WrongUsage;
+    case Status::InvalidInput:
+        return Refused;
+    case Status::CheckFailed:
+        return CheckFailed;
+    }
+    return CheckFailed;
+}
+
+// From file to file; the status and the message say how it ended.
+void Remesh(const Options &options, RunSummary &run)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const auto end = [&](int status, const std::string &message) {
+        run.status = status;
+        run.message = message;
+        run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Mesh input, result;
+    const ReadResult read = ReadMesh(options.input, input);
+    if (!read.fault.empty())
+        return end(Unreadable, options.input + ": " + read.fault);
+    if (options.params.density == vcg::ccdm::DensityKind::Quality && !read.hasQuality)
+        return end(Refused, options.input + ": it has no value per vertex to take the density from");
+    run.engine = Remeshing::Do(input, result, options.params, OnProgress);
+    run.engine.warnings.insert(run.engine.warnings.begin(), read.notes.begin(), read.notes.end());
+    if (run.engine.status != Status::Done)
+        return end(ExitStatusOf(run.engine.status), options.input + ": " + run.engine.message);
+    const std::string fault = WriteMesh(options.output, result);
+    if (!fault.empty())
+        return end(NotWritten, options.output + ": " + fault);
+    end(Done, "");
+    if (!options.quiet || !options.report.empty()) {
+        run.before = Quality::Measure(input);
+        run.after = Quality::Measure(result);
+        run.distance = Quality::Distance(input, result);
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    Options options;
+    const int usage = ParseArguments(argc, argv, options);
+    if (usage >= 0)
+        return usage;
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    showProgress = !options.quiet && IsTerminal(stderr);
+    RunSummary run;
+    try {
+        Remesh(options, run);
+    } catch (const std::bad_alloc &) {
+        run.status = Refused;
+        run.message = options.input + ": not enough memory";
+    } catch (const std::exception &e) {
+        run.status = CheckFailed;
+        run.message = e.what();
+    }
+    if (run.status != Done)
+        std::cerr << (showProgress ? "\n" : "") << "ccdm_remesh: " << run.message << '\n';
+    else if (!options.quiet)
+        PrintTable(std::cout, run);
+    if (!options.report.empty()) {
+        const std::string fault = WriteReport(options, run);
+        if (!fault.empty()) {
+            std::cerr << "ccdm_remesh: " << options.report << ": " << fault << '\n';
+            return run.status != Done ? run.status : NotWritten;
+        }
+    }
+    return run.status;
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.h"
+
+#include <iostream>
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#include "mesh_io.h"
+
+namespace ccdm_remesh {
+namespace {
+
+using vcg::ccdm::DensityKind;
+using vcg::ccdm::OptimizerKind;
+using vcg::ccdm::SamplerKind;
+
+const std::map<std::string, DensityKind> densities = {{"uniform", DensityKind::Uniform},
+                                                      {"curvature", DensityKind::Curvature},
+                                                      {"quality", DensityKind::Quality}};
+const std::map<std::string, OptimizerKind> optimizers = {{"annealing", OptimizerKind::Annealing}};
+const std::map<std::string, SamplerKind> samplers = {{"random", SamplerKind::Random}};
+
+template <class Kind>
+const char *Lookup(const std::map<std::string, Kind> &names, Kind kind)
+{
+    for (const auto &n : names)
+        if (n.second == kind)
+            return n.first.c_str();
+    return "";
+}
+
+void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
+{
+    app.add_option("-n,--vertices", p.vertexCount, "number of vertices of the result, 4 to 100000000")
+        ->required()
+        ->check(CLI::Range(4, 100000000));
+    app.add_option("--feature-angle", p.featureAngle,
+                   "edges whose faces turn by more than this are kept as features, degrees, above 0 up to 180; "
+                   "180: boundaries only")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-6, 180.0));
+    app.add_option("--lambda", p.lambda, "size of the perturbation, relative to the edge length, 0 to 1")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_option("--global-iterations", p.globalIterations, "perturb-optimise rounds (NG), 0 to 1000000")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000000));
+    app.add_option("--local-iterations", p.localIterations, "relocations in a round (NL), 1 to 1000000")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--density", p.density, "what the vertex density follows: uniform (default), curvature, quality")
+        ->transform(CLI::CheckedTransformer(densities, CLI::ignore_case));
+    app.add_option("--density-exponent", p.densityExponent,
+                   "gamma in rho = phi^gamma, the weight in the energy, 0 to 3 (default: 0.2)")
+        ->check(CLI::Range(0.0, 3.0));
+    app.add_option("--optimizer", p.optimizer, "annealing (default): the paper's")
+        ->transform(CLI::CheckedTransformer(optimizers, CLI::ignore_case));
+    app.add_option("--sampler", p.sampler, "random (default): drawn in proportion to the density")
+        ->transform(CLI::CheckedTransformer(samplers, CLI::ignore_case));
+    app.add_option("--seed", p.seed, "of the random generator, 0 to 4294967295")->capture_default_str();
+}
+
+} // namespace
+
+const char *NameOf(DensityKind k) { return Lookup(densities, k); }
+const char *NameOf(OptimizerKind k) { return Lookup(optimizers, k); }
+const char *NameOf(SamplerKind k) { return Lookup(samplers, k); }
+
+int ParseArguments(int argc, char **argv, Options &options)
+{
+    CLI::App app("Isotropic surface remeshing by constrained centroidal Delaunay meshes: a mesh of well-shaped "
+                 "triangles with the wanted number of vertices, the input's topology and its sharp features.",
+                 "ccdm_remesh");
+    app.footer("Formats: ply, off, obj, stl. Exit status: 0 done, 2 wrong usage, 3 input unreadable, 4 input refused, "
+               "5 output not written, 6 result failed its check, 130 interrupted.");
+    app.add_option("INPUT", options.input, "mesh to read")->required();
+    app.add_option("OUTPUT", options.output, "mesh to write")->required();
+    AddParameters(app, options.params);
+    app.add_option("--report", options.report, "file for a JSON report of what was achieved");
+    app.add_flag("--quiet", options.quiet, "print errors only");
+    app.set_version_flag("--version", std::string("ccdm_remesh ") + CCDM_VERSION);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    if (!IsMeshExtension(ExtensionOf(options.output))) {
+        std::cerr << "ccdm_remesh: " << options.output << ": the output's format is not known (ply, off, obj and stl are)\n";
+        return 2;
+    }
+    return -1;
+}
+
+} // namespace ccdm_remesh

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.h"
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+
+#include <nlohmann/json.hpp>
+
+#include "mesh_io.h"
+
+namespace ccdm_remesh {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using vcg::tri::MeshQualityReport;
+
+Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json QualityJson(const MeshQualityReport &q)
+{
+    Json j;
+    j["vertices"] = q.vertices - q.unreferenced;
+    j["faces"] = q.faces;
+    j["euler"] = q.euler;
+    j["components"] = q.components;
+    j["boundary_loops"] = q.boundaryLoops;
+    j["genus"] = q.genus ? Number(*q.genus) : Json(nullptr);
+    j["orientable"] = q.orientable;
+    j["angle_min_avg"] = Number(q.angleMinAvg);
+    j["angle_min"] = Number(q.angleMin);
+    j["pct_lt30"] = Number(q.pctLt30);
+    j["q_fb99_avg"] = Number(q.qFb99Avg);
+    j["q_fb99_min"] = Number(q.qFb99Min);
+    j["pct_valence6"] = Number(q.pctValence6);
+    j["folded_edges"] = q.foldedEdges;
+    return j;
+}
+
+Json ParametersJson(const vcg::ccdm::Params &p)
+{
+    Json j;
+    j["vertices"] = p.vertexCount;
+    j["feature_angle"] = p.featureAngle;
+    j["lambda"] = p.lambda;
+    j["global_iterations"] = p.globalIterations;
+    j["local_iterations"] = p.localIterations;
+    j["density"] = NameOf(p.density);
+    j["density_exponent"] = p.densityExponent.value_or(0.2);
+    j["optimizer"] = NameOf(p.optimizer);
+    j["sampler"] = NameOf(p.sampler);
+    j["seed"] = p.seed;
+    return j;
+}
+
+Json DefectsJson(const vcg::ccdm::InputDefects &d)
+{
+    Json j;
+    j["unreferenced_vertices"] = d.unreferencedVertices;
+    j["repeated_index_faces"] = d.repeatedIndexFaces;
+    j["zero_area_faces"] = d.zeroAreaFaces;
+    j["non_finite_vertices"] = d.nonFiniteVertices;
+    j["non_manifold_edges"] = d.nonManifoldEdges;
+    j["non_manifold_vertices"] = d.nonManifoldVertices;
+    j["duplicate_faces"] = d.duplicateFaces;
+    j["bad_density_vertices"] = d.badDensityVertices;
+    return j;
+}
+
+} // namespace
+
+std::string WriteReport(const Options &options, const RunSummary &run)
+{
+    const vcg::ccdm::Report &e = run.engine;
+    Json j;
+    j["status"] = run.status;
+    j["message"] = run.message;
+    j["input"] = run.before ? QualityJson(*run.before) : Json::object();
+    j["input"]["file"] = options.input;
+    j["input"]["defects"] = DefectsJson(e.defects);
+    j["parameters"] = ParametersJson(options.params);
+    j["result"] = nullptr;
+    if (run.after) {
+        j["result"] = QualityJson(*run.after);
+        j["result"]["file"] = options.output;
+        j["result"]["hausdorff"] = run.distance ? Number(run.distance->hausdorff) : Json(nullptr);
+        j["result"]["rms"] = run.distance ? Number(run.distance->rms) : Json(nullptr);
+        j["result"]["extra_vertices"] = e.extraVertices;
+    }
+    j["topology_preserved"] = e.topologyPreserved;
+    j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
+    j["energy"] = e.energy;
+    j["accepted"] = e.accepted;
+    j["relocations"] = e.relocations;
+    j["flips"] = e.flips;
+    j["seconds"] = Json::object();
+    for (const auto &s : e.seconds)
+        j["seconds"][s.first] = s.second;
+    j["seconds"]["total"] = run.seconds;
+    j["warnings"] = e.warnings;
+    return WriteAtomically(options.report, [&](const std::string &temporary) -> std::string {
+        std::ofstream out(temporary);
+        out << j.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+        out.close();
+        return out ? "" : "the file could not be written";
+    });
+}
+
+void PrintTable(std::ostream &out, const RunSummary &run)
+{
+    const auto row = [&](const char *name, int digits, auto value) {
+        out << "  " << std::left << std::setw(34) << name << std::right << std::fixed << std::setprecision(digits);
+        for (const auto &q : {run.before, run.after})
+            if (q)
+                out << std::setw(12) << value(*q);
+            else
+                out << std::setw(12) << "-";
+        out << '\n';
+    };
+    out << "  " << std::left << std::setw(34) << "" << std::right << std::setw(12) << "before" << std::setw(12) << "after"
+        << '\n';
+    row("vertices", 0, [](const MeshQualityReport &q) { return q.vertices - q.unreferenced; });
+    row("faces", 0, [](const MeshQualityReport &q) { return q.faces; });
+    row("Euler characteristic", 0, [](const MeshQualityReport &q) { return q.euler; });
+    row("boundary loops", 0, [](const MeshQualityReport &q) { return q.boundaryLoops; });
+    row("average smallest angle (deg)", 2, [](const MeshQualityReport &q) { return q.angleMinAvg; });
+    row("smallest angle (deg)", 2, [](const MeshQualityReport &q) { return q.angleMin; });
+    row("angles below 30 deg (%)", 3, [](const MeshQualityReport &q) { return q.pctLt30; });
+    row("aspect ratio [FB99], average", 3, [](const MeshQualityReport &q) { return q.qFb99Avg; });
+    row("interior vertices of valence 6 (%)", 1, [](const MeshQualityReport &q) { return q.pctValence6; });
+    if (run.distance)
+        out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2) << run.distance->hausdorff
+            << ", RMS " << run.distance->rms << '\n';
+    out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
+        << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
+        << run.seconds << " s\n";
+    for (const std::string &w : run.engine.warnings)
+        out << "  note: " << w << '\n';
+}
+
+} // namespace ccdm_remesh

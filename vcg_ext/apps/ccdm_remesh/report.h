@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef CCDM_REMESH_REPORT_H
+#define CCDM_REMESH_REPORT_H
+
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include <vcg/complex/algorithms/ccdm/parameters.h>
+#include <vcg/complex/algorithms/mesh_quality.h>
+
+#include "options.h"
+
+namespace ccdm_remesh {
+
+/// What is known at the end of a run; figures that could not be measured are unset.
+struct RunSummary {
+    int status = 0; ///< exit status
+    std::string message;
+    vcg::ccdm::Report engine;
+    std::optional<vcg::tri::MeshQualityReport> before, after;
+    std::optional<vcg::tri::SurfaceDistance> distance;
+    double seconds = 0; ///< wall time of reading, remeshing and writing
+};
+
+/// Writes the JSON report. Returns what went wrong, or an empty string.
+std::string WriteReport(const Options &options, const RunSummary &run);
+
+/// Prints quality before and after as a table, and the warnings.
+void PrintTable(std::ostream &out, const RunSummary &run);
+
+} // namespace ccdm_remesh
+
+#endif
