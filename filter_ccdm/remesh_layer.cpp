@@ -35,7 +35,7 @@ void CopyFromLayer(const CMeshO &layer, Mesh &mesh)
 
 void CopyToLayer(const Mesh &mesh, MeshModel &layer)
 {
-    layer.Clear();
+    layer.cm.Clear();
     CMeshO &m = layer.cm;
     auto v = vcg::tri::Allocator<CMeshO>::AddVertices(m, mesh.vert.size());
     for (const Vertex &source : mesh.vert) {
