@@ -17,7 +17,10 @@ using vcg::ccdm::Params;
 namespace {
 
 // Rich text wraps in tooltips, plain text does not.
-QString Tip(const char *text) { return QString("<p>%1</p>").arg(text); }
+QString Tip(const char *text)
+{
+    return QString("<p>%1</p>").arg(text);
+}
 
 // The host hands over numbers unchecked, and bad text as 0.
 Params ReadParameters(const RichParameterList &list)
@@ -25,13 +28,15 @@ Params ReadParameters(const RichParameterList &list)
     const auto real = [&](const char *name, double low, double high) {
         const double x = static_cast<double>(list.getFloat(name));
         if (!(x >= low && x <= high))
-            throw Failure(QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());
+            throw Failure(
+                QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());
         return x;
     };
     const auto whole = [&](const char *name, int low, int high) {
         const int x = list.getInt(name);
         if (x < low || x > high)
-            throw Failure(QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());
+            throw Failure(
+                QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());
         return x;
     };
     Params p;
@@ -50,7 +55,10 @@ Params ReadParameters(const RichParameterList &list)
 }
 
 // The layer list shows the base name of the label.
-QString NewLayerName(const MeshModel &source) { return QFileInfo(source.label()).completeBaseName() + "_ccdm"; }
+QString NewLayerName(const MeshModel &source)
+{
+    return QFileInfo(source.label()).completeBaseName() + "_ccdm";
+}
 
 } // namespace
 
@@ -61,7 +69,10 @@ FilterCcdmPlugin::FilterCcdmPlugin()
         actionList << new QAction(filterName(id), this);
 }
 
-QString FilterCcdmPlugin::pluginName() const { return "FilterCCDM"; }
+QString FilterCcdmPlugin::pluginName() const
+{
+    return "FilterCCDM";
+}
 
 QString FilterCcdmPlugin::filterName(FilterIDType id) const
 {
@@ -72,7 +83,8 @@ QString FilterCcdmPlugin::filterInfo(FilterIDType id) const
 {
     if (id != FP_CCDM_REMESHING)
         return "";
-    return "Replaces the triangles of a surface by well-shaped ones: the result has the <b>number of vertices</b> asked "
+    return "Replaces the triangles of a surface by well-shaped ones: the result has the <b>number of vertices</b> "
+           "asked "
            "for, the same topology, the same sharp features and boundaries, and all of its vertices lie on the "
            "original. Takes any 2-manifold triangle mesh, with any genus, with boundaries, noise or "
            "self-intersections, orientable or not.<br>"
@@ -84,13 +96,25 @@ QString FilterCcdmPlugin::filterInfo(FilterIDType id) const
            "Computer Graphics Forum 31(7), 2012.";
 }
 
-FilterCcdmPlugin::FilterClass FilterCcdmPlugin::getClass(QAction *) { return Remeshing; }
+FilterCcdmPlugin::FilterClass FilterCcdmPlugin::getClass(QAction *)
+{
+    return Remeshing;
+}
 
-FilterCcdmPlugin::FILTER_ARITY FilterCcdmPlugin::filterArity(QAction *) const { return SINGLE_MESH; }
+FilterCcdmPlugin::FILTER_ARITY FilterCcdmPlugin::filterArity(QAction *) const
+{
+    return SINGLE_MESH;
+}
 
-int FilterCcdmPlugin::getPreConditions(QAction *) const { return MeshModel::MM_FACENUMBER; }
+int FilterCcdmPlugin::getPreConditions(QAction *) const
+{
+    return MeshModel::MM_FACENUMBER;
+}
 
-int FilterCcdmPlugin::postCondition(QAction *) const { return MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER; }
+int FilterCcdmPlugin::postCondition(QAction *) const
+{
+    return MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+}
 
 void FilterCcdmPlugin::initParameterSet(QAction *, MeshModel &layer, RichParameterList &parameters)
 {
@@ -109,12 +133,14 @@ void FilterCcdmPlugin::initParameterSet(QAction *, MeshModel &layer, RichParamet
                                     "rounds; time grows in proportion.")));
     parameters.addParam(RichInt("local_iterations", p.localIterations, "Local iterations (NL)",
                                 Tip("Relocations of every vertex in each round, 1 or more.")));
-    parameters.addParam(RichEnum("density", 0, QStringList({"Uniform", "Curvature", "Vertex quality"}), "Density",
-                                 Tip("What the density of the vertices follows: nothing, the curvature of the surface, or "
-                                     "the quality of its vertices (positive values; larger means denser).")));
-    parameters.addParam(RichBool("selected_edges", false, "Selected edges are features",
-                                 Tip("Keeps the selected face edges (see \"Select Crease Edges\") as features, in addition "
-                                     "to those found by angle.")));
+    parameters.addParam(
+        RichEnum("density", 0, QStringList({"Uniform", "Curvature", "Vertex quality"}), "Density",
+                 Tip("What the density of the vertices follows: nothing, the curvature of the surface, or "
+                     "the quality of its vertices (positive values; larger means denser).")));
+    parameters.addParam(
+        RichBool("selected_edges", false, "Selected edges are features",
+                 Tip("Keeps the selected face edges (see \"Select Crease Edges\") as features, in addition "
+                     "to those found by angle.")));
     parameters.addParam(RichInt("seed", static_cast<int>(p.seed), "Seed",
                                 Tip("Seed of the random generator, 0 or more. The same seed gives the same result.")));
     parameters.addParam(RichBool("new_layer", true, "New layer",
@@ -162,8 +188,8 @@ void FilterCcdmPlugin::remesh(MeshDocument &document, const RichParameterList &p
 
     filter_ccdm::Mesh input, result;
     filter_ccdm::CopyFromLayer(source->cm, input);
-    Log("CCDM: %d vertices, %d faces -> %d vertices, feature angle %g, lambda %g, %d x %d iterations, seed %u", input.VN(),
-        input.FN(), params.vertexCount, params.featureAngle, params.lambda, params.globalIterations,
+    Log("CCDM: %d vertices, %d faces -> %d vertices, feature angle %g, lambda %g, %d x %d iterations, seed %u",
+        input.VN(), input.FN(), params.vertexCount, params.featureAngle, params.lambda, params.globalIterations,
         params.localIterations, static_cast<unsigned>(params.seed));
 
     QElapsedTimer timer;

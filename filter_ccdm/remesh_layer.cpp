@@ -25,7 +25,8 @@ void CopyFromLayer(const CMeshO &layer, Mesh &mesh)
         if (source.IsD())
             continue;
         for (int k = 0; k < 3; ++k) {
-            f->V(k) = &mesh.vert[static_cast<std::size_t>(index[static_cast<std::size_t>(source.cV(k) - layer.vert.data())])];
+            f->V(k) =
+                &mesh.vert[static_cast<std::size_t>(index[static_cast<std::size_t>(source.cV(k) - layer.vert.data())])];
             if (source.IsFaceEdgeS(k))
                 f->SetFaceEdgeS(k);
         }

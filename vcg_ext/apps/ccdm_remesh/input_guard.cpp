@@ -16,9 +16,9 @@ namespace {
 std::uint64_t PlyTypeSize(const std::string &type)
 {
     static const std::map<std::string, std::uint64_t> size = {
-        {"char", 1},  {"int8", 1}, {"uchar", 1}, {"uint8", 1}, {"short", 2}, {"int16", 2},   {"ushort", 2},
-        {"uint16", 2}, {"int", 4}, {"int32", 4}, {"uint", 4},  {"uint32", 4}, {"float", 4}, {"float32", 4},
-        {"double", 8}, {"float64", 8}};
+        {"char", 1},   {"int8", 1},    {"uchar", 1},  {"uint8", 1},  {"short", 2}, {"int16", 2},
+        {"ushort", 2}, {"uint16", 2},  {"int", 4},    {"int32", 4},  {"uint", 4},  {"uint32", 4},
+        {"float", 4},  {"float32", 4}, {"double", 8}, {"float64", 8}};
     const auto it = size.find(type);
     return it == size.end() ? 0 : it->second;
 }

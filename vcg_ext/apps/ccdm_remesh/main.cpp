@@ -21,7 +21,15 @@ using vcg::ccdm::Status;
 using Remeshing = vcg::tri::CCDMRemeshing<Mesh>;
 using Quality = vcg::tri::MeshQuality<Mesh>;
 
-enum ExitStatus { Done = 0, WrongUsage = 2, Unreadable = 3, Refused = 4, NotWritten = 5, CheckFailed = 6, Interrupted = 130 };
+enum ExitStatus {
+    Done = 0,
+    WrongUsage = 2,
+    Unreadable = 3,
+    Refused = 4,
+    NotWritten = 5,
+    CheckFailed = 6,
+    Interrupted = 130
+};
 
 volatile std::sig_atomic_t interrupted = 0;
 bool showProgress = false;
@@ -29,7 +37,8 @@ bool showProgress = false;
 bool OnProgress(const int at, const char *phase)
 {
     if (showProgress) {
-        std::fprintf(stderr, "\r[%-40.*s] %3d%% %-28s", at * 40 / 100, "########################################", at, phase);
+        std::fprintf(stderr, "\r[%-40.*s] %3d%% %-28s", at * 40 / 100, "########################################", at,
+                     phase);
         if (at == 100)
             std::fputc('\n', stderr);
     }

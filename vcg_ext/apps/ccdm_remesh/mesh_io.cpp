@@ -128,7 +128,8 @@ std::string WriteAtomically(const std::string &path, const std::function<std::st
     // The extension stays, because exporters go by it.
     fs::path temporary = target.parent_path();
     for (int k = 0;; ++k) {
-        const std::string name = "." + target.stem().string() + ".part" + std::to_string(k) + target.extension().string();
+        const std::string name =
+            "." + target.stem().string() + ".part" + std::to_string(k) + target.extension().string();
         temporary = target.parent_path() / name;
         std::error_code ignored;
         if (!fs::exists(temporary, ignored))

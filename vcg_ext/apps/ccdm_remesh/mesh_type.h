@@ -11,14 +11,15 @@ namespace ccdm_remesh {
 class Vertex;
 class Face;
 
-struct UsedTypes : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<Face>::AsFaceType> {};
+struct UsedTypes : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<Face>::AsFaceType> {
+};
 
 class Vertex : public vcg::Vertex<UsedTypes, vcg::vertex::Coord3d, vcg::vertex::Normal3d, vcg::vertex::Qualityf,
                                   vcg::vertex::Mark, vcg::vertex::BitFlags>
 {
 };
-class Face : public vcg::Face<UsedTypes, vcg::face::VertexRef, vcg::face::Normal3d, vcg::face::FFAdj,
-                              vcg::face::BitFlags>
+class Face
+    : public vcg::Face<UsedTypes, vcg::face::VertexRef, vcg::face::Normal3d, vcg::face::FFAdj, vcg::face::BitFlags>
 {
 };
 /// The mesh of the command line: double precision, vertex quality as the caller's density.

@@ -15,9 +15,8 @@ using vcg::ccdm::DensityKind;
 using vcg::ccdm::OptimizerKind;
 using vcg::ccdm::SamplerKind;
 
-const std::map<std::string, DensityKind> densities = {{"uniform", DensityKind::Uniform},
-                                                      {"curvature", DensityKind::Curvature},
-                                                      {"quality", DensityKind::Quality}};
+const std::map<std::string, DensityKind> densities = {
+    {"uniform", DensityKind::Uniform}, {"curvature", DensityKind::Curvature}, {"quality", DensityKind::Quality}};
 const std::map<std::string, OptimizerKind> optimizers = {{"annealing", OptimizerKind::Annealing}};
 const std::map<std::string, SamplerKind> samplers = {{"random", SamplerKind::Random}};
 
@@ -63,9 +62,18 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
 
 } // namespace
 
-const char *NameOf(DensityKind k) { return Lookup(densities, k); }
-const char *NameOf(OptimizerKind k) { return Lookup(optimizers, k); }
-const char *NameOf(SamplerKind k) { return Lookup(samplers, k); }
+const char *NameOf(DensityKind k)
+{
+    return Lookup(densities, k);
+}
+const char *NameOf(OptimizerKind k)
+{
+    return Lookup(optimizers, k);
+}
+const char *NameOf(SamplerKind k)
+{
+    return Lookup(samplers, k);
+}
 
 int ParseArguments(int argc, char **argv, Options &options)
 {
@@ -86,7 +94,8 @@ int ParseArguments(int argc, char **argv, Options &options)
         return app.exit(e) == 0 ? 0 : 2;
     }
     if (!IsMeshExtension(ExtensionOf(options.output))) {
-        std::cerr << "ccdm_remesh: " << options.output << ": the output's format is not known (ply, off, obj and stl are)\n";
+        std::cerr << "ccdm_remesh: " << options.output
+                  << ": the output's format is not known (ply, off, obj and stl are)\n";
         return 2;
     }
     return -1;

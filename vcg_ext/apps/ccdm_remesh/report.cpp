@@ -15,7 +15,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using vcg::tri::MeshQualityReport;
 
-Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json Number(double x)
+{
+    return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
 
 Json QualityJson(const MeshQualityReport &q)
 {
@@ -117,8 +120,8 @@ void PrintTable(std::ostream &out, const RunSummary &run)
                 out << std::setw(12) << "-";
         out << '\n';
     };
-    out << "  " << std::left << std::setw(34) << "" << std::right << std::setw(12) << "before" << std::setw(12) << "after"
-        << '\n';
+    out << "  " << std::left << std::setw(34) << "" << std::right << std::setw(12) << "before" << std::setw(12)
+        << "after" << '\n';
     row("vertices", 0, [](const MeshQualityReport &q) { return q.vertices - q.unreferenced; });
     row("faces", 0, [](const MeshQualityReport &q) { return q.faces; });
     row("Euler characteristic", 0, [](const MeshQualityReport &q) { return q.euler; });

@@ -64,19 +64,22 @@ private:
     static bool BendsNear(const Model &model, const Point &p, double reach)
     {
         const ReferenceSurface &surface = model.surface;
-        Point first(0, 0, 0);
-        for (int t = 0; t < surface.FaceCount(); ++t) {
-            if (surface.NearestOn(t, p).squaredDistance > reach * reach)
-                continue;
-            const Point n = Normalized(surface.AreaVector(t));
-            if (SquaredNorm(first) == 0)
-                first = n;
-            else if (SquaredNorm(n) > 0 && Dot(n, first) < 0.26)
-                return true;
-        }
-        return false;
+        std::vector<Point> normals;
+        for (int t = 0; t < surface.FaceCount(); ++t)
+            if (surface.NearestOn(t, p).squaredDistance <= reach * reach)
+                normals.push_back(Normalized(surface.AreaVector(t)));
+        // The normal furthest from the first, then the one furthest from that: nearly the widest pair.
+        const auto furthest = [&](const Point &n) {
+            return *std::min_element(normals.begin(), normals.end(),
+                                     [&](const Point &a, const Point &b) { return Dot(a, n) < Dot(b, n); });
+        };
+        if (normals.empty())
+            return false;
+        const Point one = furthest(normals.front());
+        return Dot(one, furthest(one)) < SharpCosine;
     }
 
+    static constexpr double SharpCosine = 0.25881904510252074; // of 75 degrees
     static constexpr double FoldTurn = 150 * Pi / 180;
 
     static double Turn(const Triangulation &m, const std::vector<Point> &x, Side s)

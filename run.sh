@@ -1,0 +1,142 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The project's one script. Debian 12; as root, or as a user with sudo.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+usage() {
+    cat <<'TEXT'
+usage: ./run.sh VERB
+
+  demo    installs what is missing, builds, remeshes a sample through MeshLab's headless server,
+          prints the quality before and after, and draws a picture (build/demo)
+  test    the same set-up, then every check and test
+  build   the command line, the plugin and the tests, in build/
+  bench   the comparison with MeshLab's own remesher and the scaling run (tests/bench)
+  clean   removes what was built; --all: the fetched MeshLab sources too
+TEXT
+}
+
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'run.sh: %s\n' "$*" >&2; exit 1; }
+
+build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev libgtest-dev qtbase5-dev
+    libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
+demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
+test_packages=(clang-format clang-tidy python3-pytest)
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        fail "packages are missing and neither root nor sudo is at hand: $*"
+    fi
+}
+
+install_packages() {
+    local missing=() p
+    for p in "$@"; do
+        dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q 'ok installed' || missing+=("$p")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    say "installing: ${missing[*]}"
+    as_root apt-get update -qq
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# The tree that the plugin is compiled against: Debian's source tarball of the installed MeshLab, fetched
+# with private lists, so that the machine's own package sources stay as they are.
+sdk=$PWD/.sdk/meshlab-2020.09
+fetch_sdk() {
+    [ ! -e "$sdk/.complete" ] || return 0
+    say "fetching the sources of MeshLab 2020.09 (12 MB) into .sdk"
+    local version=2020.09+dfsg1-2 state=$PWD/.sdk/state archive
+    mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
+    # The mirror that the machine uses already.
+    local mirror
+    mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 2>/dev/null | grep -m1 'debian/*$' || true)
+    [ -n "$mirror" ] || fail "apt knows no Debian mirror to fetch MeshLab's sources from"
+    printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s bookworm main\n' \
+        "$mirror" >"$state/sources.list"
+    local options=(-o "Dir::Etc::sourcelist=$state/sources.list" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$state/lists"
+        -o "Dir::Cache=$state/cache" -o APT::Sandbox::User= -qq)
+    apt-get "${options[@]}" update || fail "the package lists of MeshLab's sources could not be fetched"
+    (cd .sdk && apt-get "${options[@]}" source --tar-only "meshlab=$version" >/dev/null) ||
+        fail "the sources of MeshLab $version could not be fetched"
+    archive=.sdk/meshlab_${version%-*}.orig.tar.xz
+    mkdir -p "$sdk"
+    tar -xf "$archive" -C "$sdk" --strip-components=1 --wildcards '*/src/common/*' '*/vcglib/*'
+    touch "$sdk/.complete"
+    rm -rf "$state" "$archive"
+}
+
+build() {
+    install_packages "${build_packages[@]}"
+    fetch_sdk
+    say "building"
+    cmake --preset default >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
+    mkdir -p build && mv build-configure.log build/configure.log
+    cmake --build --preset default -- -v >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
+    filter_ccdm/make_host_tree.sh build/host build/plugins/libfilter_ccdm.so
+}
+
+# The host's server with our plugin, on a display of its own.
+server() { xvfb-run -a build/host/bin/meshlabserver "$@"; }
+
+demo() {
+    install_packages "${build_packages[@]}" "${demo_packages[@]}"
+    build
+    local out=build/demo input=sample_meshes/cad_part.ply
+    mkdir -p "$out"
+    rm -f "$out"/*
+    say "remeshing $input inside meshlabserver, script filter_ccdm/scripts/ccdm_uniform.mlx"
+    server -i "$input" -s filter_ccdm/scripts/ccdm_uniform.mlx -o "$out/cad_part_ccdm.ply" >"$out/meshlabserver.log" 2>&1 ||
+        { tail -5 "$out/meshlabserver.log"; fail "meshlabserver failed"; }
+    [ -s "$out/cad_part_ccdm.ply" ] || fail "meshlabserver wrote no mesh, see $out/meshlabserver.log"
+    sed -n 's/^LOG: [0-9]* CCDM: /  /p' "$out/meshlabserver.log"
+    /usr/bin/python3 sample_meshes/render.py "$out/before_after.png" "$input" "$out/cad_part_ccdm.ply" \
+        --titles "before,after" --histogram
+    say "mesh: $out/cad_part_ccdm.ply   picture: $out/before_after.png"
+}
+
+check_style() {
+    say "clang-format"
+    git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+    say "clang-tidy"
+    local sources=(vcg_ext/apps/ccdm_remesh/*.cpp sample_meshes/generator/*.cpp tests/unit/*.cpp)
+    printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build --quiet >build/clang-tidy.log 2>/dev/null ||
+        { grep -E 'error|warning' build/clang-tidy.log | sort -u | head -40; fail "clang-tidy found something"; }
+}
+
+run_tests() {
+    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}"
+    build
+    check_style
+    say "tests"
+    [ -d ../shared/meshes ] || say "../shared/meshes is not there: the tests on real models are skipped"
+    ctest --preset default --output-on-failure
+}
+
+bench() {
+    install_packages "${build_packages[@]}" "${demo_packages[@]}"
+    build
+    /usr/bin/python3 tests/bench/bench_hosts.py
+    /usr/bin/python3 tests/bench/bench_scaling.py
+}
+
+case "${1:-}" in
+demo) demo ;;
+test) run_tests ;;
+build) build ;;
+bench) bench ;;
+clean)
+    rm -rf build
+    [ "${2:-}" != --all ] || rm -rf .sdk
+    ;;
+*)
+    usage
+    [ -n "${1:-}" ] && exit 2
+    ;;
+esac

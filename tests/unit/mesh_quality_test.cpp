@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/mesh_quality.h>
+
+#include <gtest/gtest.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using meshes::MeshD;
+using meshes::MeshF;
+using vcg::tri::MeshQualityReport;
+
+template <class MeshType>
+MeshQualityReport Measured(const shapes::Shape &s)
+{
+    MeshType m;
+    meshes::Fill(m, s);
+    return vcg::tri::MeshQuality<MeshType>::Measure(m);
+}
+
+TEST(MeshQuality, EquilateralTriangleIsPerfect)
+{
+    const auto q = Measured<MeshD>({{{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(3.0) / 2, 0}}, {{0, 1, 2}}});
+    EXPECT_NEAR(q.angleMinAvg, 60, 1e-9);
+    EXPECT_NEAR(q.angleMax, 60, 1e-9);
+    EXPECT_NEAR(q.qFb99Avg, 1, 1e-12);
+    EXPECT_NEAR(q.area, std::sqrt(3.0) / 4, 1e-12);
+    EXPECT_EQ(q.boundaryLoops, 1);
+    EXPECT_EQ(q.euler, 1);
+}
+
+TEST(MeshQuality, RightTriangleHasKnownAspectRatio)
+{
+    // Sides 3, 4, 5: 2 sqrt(3) * 6 / (6 * 5).
+    const auto q = Measured<MeshD>({{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
+    EXPECT_NEAR(q.qFb99Min, 2 * std::sqrt(3.0) / 5, 1e-12);
+    EXPECT_NEAR(q.angleMin, std::atan2(3, 4) * 180 / M_PI, 1e-9);
+    EXPECT_EQ(q.pctLt30, 0);
+}
+
+TEST(MeshQuality, NeedleCountsAsSmallAngle)
+{
+    const auto q = Measured<MeshD>({{{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}}, {{0, 1, 2}}});
+    EXPECT_NEAR(q.pctLt30, 100.0 / 3, 1e-9);
+}
+
+struct TypeCase {
+    const char *name;
+    shapes::Shape shape;
+    int euler, components, loops;
+    bool orientable;
+    double genus;
+};
+
+TEST(MeshQuality, TopologyOfKnownSurfaces)
+{
+    const TypeCase cases[] = {
+        {"tetrahedron", shapes::Tetrahedron(), 2, 1, 0, true, 0},
+        {"sphere", shapes::Sphere(2), 2, 1, 0, true, 0},
+        {"torus", shapes::RoundTorus(12, 8), 0, 1, 0, true, 1},
+        {"cad", shapes::CadPart(), -2, 1, 0, true, 2},
+        {"genus 9", shapes::HighGenus(1), -16, 1, 0, true, 9},
+        {"plate", shapes::Plate(40), -2, 1, 4, true, 0},
+        {"klein", shapes::KleinBottle(12, 8), 0, 1, 0, false, 2},
+        {"moebius", shapes::MoebiusStrip(12, 3), 0, 1, 1, false, 1},
+        {"two", shapes::TwoComponents(), 2, 2, 0, true, 1},
+    };
+    for (const TypeCase &c : cases) {
+        SCOPED_TRACE(c.name);
+        for (const auto &q : {Measured<MeshD>(c.shape), Measured<MeshF>(c.shape)}) {
+            EXPECT_EQ(q.euler, c.euler);
+            EXPECT_EQ(q.components, c.components);
+            EXPECT_EQ(q.boundaryLoops, c.loops);
+            EXPECT_EQ(q.orientable, c.orientable);
+            ASSERT_TRUE(q.genus.has_value());
+            EXPECT_EQ(*q.genus, c.genus);
+            EXPECT_TRUE(q.manifold);
+        }
+    }
+}
+
+TEST(MeshQuality, FindsWhatIsNotManifold)
+{
+    const shapes::Shape fin = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}},
+                               {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}};
+    EXPECT_EQ(Measured<MeshD>(fin).nonManifoldEdges, 1);
+    EXPECT_FALSE(Measured<MeshD>(fin).manifold);
+    const shapes::Shape bowTie = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 4, 3}}};
+    EXPECT_EQ(Measured<MeshD>(bowTie).nonManifoldVertices, 1);
+    EXPECT_EQ(Measured<MeshD>(bowTie).boundaryLoops, 2);
+    EXPECT_FALSE(Measured<MeshD>(bowTie).genus.has_value());
+    const shapes::Shape twice = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+    EXPECT_FALSE(Measured<MeshD>(twice).manifold);
+}
+
+TEST(MeshQuality, CountsFoldsAndUnreferencedVertices)
+{
+    const shapes::Shape fold = {{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, 0.05}, {9, 9, 9}}, {{0, 1, 2}, {1, 0, 3}}};
+    const auto q = Measured<MeshD>(fold);
+    EXPECT_EQ(q.foldedEdges, 1);
+    EXPECT_EQ(q.unreferenced, 1);
+    EXPECT_EQ(Measured<MeshD>(shapes::FlatGrid(4)).foldedEdges, 0);
+}
+
+TEST(MeshQuality, ValenceOfTheInterior)
+{
+    EXPECT_EQ(Measured<MeshD>(shapes::FlatGrid(6)).pctValence6, 100);
+    EXPECT_EQ(Measured<MeshD>(shapes::Icosahedron()).pctValence6, 0);
+}
+
+TEST(MeshQuality, DistanceOfParallelSheets)
+{
+    MeshD a, b;
+    meshes::Fill(a, shapes::FlatGrid(4));
+    shapes::Shape lifted = shapes::FlatGrid(7);
+    for (auto &p : lifted.points)
+        p[2] = 0.25;
+    meshes::Fill(b, lifted);
+    const auto d = vcg::tri::MeshQuality<MeshD>::Distance(a, b, 5000);
+    EXPECT_NEAR(d.hausdorff, 0.25 / std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(d.rms, 0.25 / std::sqrt(2.0), 1e-9);
+    EXPECT_EQ(vcg::tri::MeshQuality<MeshD>::Distance(a, a, 5000).hausdorff, 0);
+}
+
+TEST(MeshQuality, DistanceIsTheLargerDirection)
+{
+    // A sheet against its left half: the far edge is 0.5 away one way only.
+    MeshD whole, half;
+    meshes::Fill(whole, shapes::FlatGrid(8));
+    meshes::Fill(half, shapes::Cut(shapes::FlatGrid(8), [](const shapes::P &c) { return c[0] < 0.5; }));
+    const auto d = vcg::tri::MeshQuality<MeshD>::Distance(whole, half, 20000);
+    EXPECT_NEAR(d.hausdorffForward, 0.5 / std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(d.hausdorffBackward, 0, 1e-12);
+    // Mean square of a distance that grows from 0 to 0.5 over half of the area.
+    EXPECT_NEAR(d.rms, std::sqrt(0.25 / 3 / 2) / std::sqrt(2.0), 2e-3);
+}
+
+TEST(MeshQuality, DistanceBetweenMeshTypes)
+{
+    MeshD d;
+    MeshF f;
+    meshes::Fill(d, shapes::Sphere(4));
+    meshes::Fill(f, shapes::Sphere(2));
+    const auto r = vcg::tri::MeshQuality<MeshD>::Distance(d, f, 20000);
+    // Sagitta over the middle of the coarse sphere's triangles: edge^2 / 6 with edges of about 0.31, over a
+    // diagonal of about 3.4.
+    EXPECT_NEAR(r.hausdorff, 0.0047, 0.0007);
+    EXPECT_LT(r.rms, r.hausdorff);
+}
+
+} // namespace

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/ccdm/polish.h>
+
+#include <gtest/gtest.h>
+
+#include <vcg/complex/algorithms/ccdm/extremes.h>
+#include <vcg/complex/algorithms/ccdm/result_check.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using namespace vcg::ccdm;
+
+double SmallestAngle(const Remesh &r)
+{
+    double least = Pi;
+    for (const Triangle &T : r.mesh.triangle)
+        for (int i = 0; i < 3; ++i) {
+            const Point &x = r.position[T.v[i]];
+            const Point u = r.position[T.v[Next(i)]] - x, w = r.position[T.v[Prev(i)]] - x;
+            least = std::min(least, std::atan2(Norm(Cross(u, w)), Dot(u, w)));
+        }
+    return least * 180 / Pi;
+}
+
+TEST(Polish, RaisesTheSmallestAngle)
+{
+    const Model model = meshes::MakeModel(shapes::Sphere(4), 2562, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Relocator relocator(model, r);
+    Random random(3);
+    for (int i = 0; i < 3; ++i)
+        relocator.Sweep(Perturbation{0.4, random});
+    const double before = SmallestAngle(r);
+    ASSERT_LT(before, 25);
+    EXPECT_EQ(Polish(model, r).RaiseAngles(34, 0.1, 40), 0);
+    EXPECT_GE(SmallestAngle(r), 34 - 1e-6);
+    EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
+}
+
+TEST(Polish, OpensAFold)
+{
+    // One vertex of a plane mesh drawn across its neighbours.
+    const Model model = meshes::MakeModel(shapes::FlatGrid(10), 121, 180);
+    Remesh r = meshes::AsRemesh(model);
+    for (int v = 0; v < r.VertexCount(); ++v)
+        if (Norm(r.position[v] - Point(0.5, 0.5, 0)) < 1e-9) {
+            r.position[v] = Point(0.63, 0.55, 0);
+            for (int t = 0; t < model.surface.FaceCount(); ++t)
+                if (model.surface.NearestOn(t, r.position[v]).squaredDistance < 1e-20)
+                    r.place[v].face = t;
+        }
+    ASSERT_GT(ResultCheck(model, r).foldedEdges, 0);
+    EXPECT_NE(ResultCheck(model, r).fault, "") << "a fold on a plane must not pass";
+    EXPECT_EQ(Polish(model, r).Unfold(20), 0);
+    EXPECT_EQ(ResultCheck(model, r).foldedEdges, 0);
+    EXPECT_EQ(ResultCheck(model, r).fault, "");
+}
+
+TEST(ExtremeCapture, PutsAVertexOnATip)
+{
+    // A sphere with one spike, and a remesh that has the spike's vertex elsewhere.
+    shapes::Shape s = shapes::Sphere(4);
+    int tip = 0;
+    for (std::size_t v = 0; v < s.points.size(); ++v)
+        if (s.points[v][2] > s.points[tip][2])
+            tip = static_cast<int>(v);
+    const shapes::P axis = s.points[tip];
+    for (auto &p : s.points) {
+        const double d = std::hypot(p[0] - axis[0], p[1] - axis[1], p[2] - axis[2]);
+        const double lift = 1 + 0.25 * std::exp(-d * d / 0.01);
+        for (double &x : p)
+            x *= lift;
+    }
+    const Model model = meshes::MakeModel(s, 2562, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Relocator relocator(model, r);
+    // Half a spacing off the tip.
+    relocator.Sweep([&](const LocalStar &star, int v) {
+        return v == tip ? Relocator::TangentStep(star, 0.3) * (0.45 * star.radius) : Point(0, 0, 0);
+    });
+    const double off = Norm(r.position[tip] - model.surface.position[tip]);
+    ASSERT_GT(off, 0);
+    const std::vector<int> captured = ExtremeCapture(model, r).Run(5, 10);
+    ASSERT_EQ(captured.size(), 1U);
+    EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
+}
+
+TEST(ResultCheck, PassesASoundMeshAndFindsBadOnes)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(3), 600, 180);
+    Remesh r = meshes::AsRemesh(model);
+    EXPECT_EQ(ResultCheck(model, r).fault, "");
+    Remesh broken = r;
+    broken.position[5] = Point(0, std::nan(""), 0);
+    EXPECT_NE(ResultCheck(model, broken).fault, "");
+    broken = r;
+    broken.mesh.triangle[7].n[0] = NoSide;
+    EXPECT_NE(ResultCheck(model, broken).fault, "");
+}
+
+TEST(ResultCheck, AllowsTheFoldsOfAKnifeEdge)
+{
+    // A wedge of 10 degrees whose edge is not marked as a feature.
+    const shapes::Shape s = {{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0.09}, {0.5, 1, -0.09}}, {{0, 1, 2}, {1, 0, 3}}};
+    const Model model = meshes::MakeModel(s, 10, 180);
+    const Remesh r = meshes::AsRemesh(model);
+    const ResultCheck check(model, r);
+    EXPECT_EQ(check.foldedEdges, 1);
+    EXPECT_EQ(check.fault, "");
+}
+
+} // namespace
