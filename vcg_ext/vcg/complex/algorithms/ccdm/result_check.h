@@ -32,7 +32,7 @@ struct ResultCheck {
     }
 
 private:
-    // A fold is right only where the input itself turns that sharply within the length of the edges
+    // A fold is right only where the input itself turns that sharply within two lengths of the edges
     // around it: at a knife edge, or on a part that is thinner than the spacing.
     void CheckFolds(const Model &model, const Remesh &remesh)
     {
@@ -50,8 +50,8 @@ private:
                 ++foldedEdges;
                 const Point &p = remesh.position[m.Tail(s)], &q = remesh.position[m.Head(s)];
                 if (!m.Constrained(s))
-                    folds.push_back({(p + q) / 2, std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
-                                                            Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
+                    folds.push_back({(p + q) / 2, 2 * std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
+                                                                Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
             }
         int unfounded = 0;
         for (const Fold &f : folds)
