@@ -168,45 +168,9 @@ std::string CheckStl(std::ifstream &in, std::uint64_t size)
             return "vertex " + std::to_string(vertices) + " has a coordinate that is not a number";
         ++vertices;
     }
+    if (facets == 0)
+        return "it has no facets";
     return vertices == 3 * facets ? "" : "a facet has other than three vertices";
-}
-
-// Indices count from 1, or back from the last vertex when negative.
-std::string CheckObj(std::ifstream &in)
-{
-    std::string line, word;
-    long long vertices = 0, number = 0;
-    std::vector<std::pair<long long, long long>> forward; // index, line
-    while (std::getline(in, line)) {
-        ++number;
-        std::istringstream words(line);
-        if (!(words >> word))
-            continue;
-        if (word == "v") {
-            double x = 0;
-            for (int k = 0; k < 3; ++k)
-                if (!(words >> x) && line.find("nan") == std::string::npos && line.find("inf") == std::string::npos)
-                    return "line " + std::to_string(number) + " has fewer than three coordinates";
-            ++vertices;
-        } else if (word == "f") {
-            int corners = 0;
-            while (words >> word) {
-                char *end = nullptr;
-                const long long index = std::strtoll(word.c_str(), &end, 10);
-                if (end == word.c_str() || index == 0 || index < -vertices)
-                    return "line " + std::to_string(number) + " names a vertex that does not exist";
-                if (index > vertices)
-                    forward.emplace_back(index, number);
-                ++corners;
-            }
-            if (corners < 3)
-                return "line " + std::to_string(number) + " has a face of fewer than three corners";
-        }
-    }
-    for (const auto &f : forward)
-        if (f.first > vertices)
-            return "line " + std::to_string(f.second) + " names a vertex that does not exist";
-    return vertices == 0 ? "it has no vertices" : "";
 }
 
 } // namespace
@@ -226,9 +190,7 @@ std::string FindFileFault(const std::string &path, const std::string &extension)
         return CheckPly(in, static_cast<std::uint64_t>(size));
     if (extension == "off")
         return CheckOff(in, static_cast<std::uint64_t>(size));
-    if (extension == "stl")
-        return CheckStl(in, static_cast<std::uint64_t>(size));
-    return CheckObj(in);
+    return extension == "stl" ? CheckStl(in, static_cast<std::uint64_t>(size)) : "";
 }
 
 } // namespace ccdm_remesh

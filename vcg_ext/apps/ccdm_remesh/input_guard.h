@@ -7,7 +7,8 @@
 namespace ccdm_remesh {
 
 /// Looks at a mesh file before vcglib's importer does, which trusts the counts in headers and some
-/// indices. `extension` is lower case, without the dot: ply, off, obj or stl.
+/// indices. `extension` is lower case, without the dot: ply, off, stl, or another, of which only the
+/// existence is looked at.
 /// Returns what is wrong with the file, or an empty string.
 std::string FindFileFault(const std::string &path, const std::string &extension);
 

@@ -14,6 +14,7 @@
 #include <wrap/io_trimesh/import.h>
 
 #include "input_guard.h"
+#include "obj_reader.h"
 
 namespace ccdm_remesh {
 namespace {
@@ -47,6 +48,14 @@ bool PointsIntoMesh(const Mesh &mesh)
     const auto inside = [&](const Vertex *v) { return v >= first && v < last; };
     return std::all_of(mesh.face.begin(), mesh.face.end(),
                        [&](const Face &f) { return inside(f.cV(0)) && inside(f.cV(1)) && inside(f.cV(2)); });
+}
+
+// By vcglib's importers. Returns what went wrong, or an empty string.
+std::string Import(const std::string &path, Mesh &mesh, int &mask)
+{
+    using Importer = vcg::tri::io::Importer<Mesh>;
+    const int error = Importer::Open(mesh, path.c_str(), mask);
+    return error != 0 && Importer::ErrorCritical(error) ? Importer::ErrorMsg(error) : "";
 }
 
 int Export(const std::string &path, const std::string &extension, Mesh &mesh)
@@ -98,25 +107,22 @@ ReadResult ReadMesh(const std::string &path, Mesh &mesh)
     r.fault = FindFileFault(path, extension);
     if (!r.fault.empty())
         return r;
-    using Importer = vcg::tri::io::Importer<Mesh>;
-    int mask = 0;
+    int fromPolygons = 0, mask = 0;
     try {
-        const int error = Importer::Open(mesh, path.c_str(), mask);
-        if (error != 0 && Importer::ErrorCritical(error)) {
-            r.fault = Importer::ErrorMsg(error);
-            return r;
-        }
+        r.fault = extension == "obj" ? ReadObj(path, mesh, fromPolygons) : Import(path, mesh, mask);
     } catch (const std::exception &e) {
         r.fault = e.what();
-        return r;
     }
+    if (!r.fault.empty())
+        return r;
     if (!PointsIntoMesh(mesh)) {
         r.fault = "a face names a vertex that does not exist";
         return r;
     }
     r.hasQuality = (mask & Mask::IOM_VERTQUALITY) != 0;
-    if (const int n = ClearPolygonMarks(mesh))
-        r.notes.push_back(Counted(n, "triangle comes", "triangles come") + " from polygons that were split");
+    fromPolygons += ClearPolygonMarks(mesh);
+    if (fromPolygons > 0)
+        r.notes.push_back(Counted(fromPolygons, "triangle comes", "triangles come") + " from polygons that were split");
     if (extension == "stl")
         vcg::tri::Clean<Mesh>::RemoveDuplicateVertex(mesh);
     return r;

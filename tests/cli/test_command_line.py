@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line as its users drive it: options, exit statuses, formats, reports."""
+import json
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+import plyfile
+
+FAST = ("--global-iterations", "3", "--quiet")
+
+
+def test_help_names_every_option(remesh):
+    text = remesh("--help").stdout
+    for option in ("--vertices", "--feature-angle", "--lambda", "--global-iterations", "--local-iterations", "--density",
+                   "--density-exponent", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
+        assert option in text
+    assert remesh("--version").stdout.startswith("ccdm_remesh ")
+
+
+def test_exact_vertex_count_and_table(remesh, samples, tmp_path):
+    out = tmp_path / "out.ply"
+    run = remesh(f"{samples}/bumpy.ply", out, "-n", 1000, "--global-iterations", 3)
+    assert run.returncode == 0, run.stderr
+    assert plyfile.count_ply(out)[0] == 1000
+    assert "average smallest angle" in run.stdout and "topology preserved" in run.stdout
+
+
+def test_quiet_prints_nothing(remesh, samples, tmp_path):
+    run = remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", "-n", 100, *FAST)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "", "")
+
+
+def test_report_has_every_key(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    run = remesh(f"{samples}/cad_part.ply", tmp_path / "o.ply", "-n", 800, "--report", report, *FAST, "--seed", 7)
+    assert run.returncode == 0
+    data = json.loads(report.read_text())
+    assert set(data) >= {"input", "parameters", "result", "topology_preserved", "energy", "accepted", "seconds", "warnings"}
+    assert set(data["result"]) >= {"vertices", "faces", "euler", "components", "boundary_loops", "genus", "orientable",
+                                   "angle_min_avg", "angle_min", "pct_lt30", "q_fb99_avg", "q_fb99_min", "hausdorff",
+                                   "rms", "pct_valence6"}
+    assert data["result"]["vertices"] == 800 and data["result"]["genus"] == 2 and data["result"]["euler"] == -2
+    assert data["topology_preserved"] is True
+    assert len(data["energy"]) == 4 and 0 <= data["accepted"] <= 3
+    assert data["parameters"]["seed"] == 7 and data["parameters"]["density_exponent"] == 0.2
+    assert data["seconds"]["total"] > 0 and data["seconds"]["optimising"] > 0
+    assert 0 < data["result"]["hausdorff"] < 0.02
+
+
+def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
+    def run(name, *extra, **options):
+        assert remesh(f"{samples}/bumpy.ply", tmp_path / name, "-n", 700, *FAST, *extra, **options).returncode == 0
+        return (tmp_path / name).read_bytes()
+    first = run("a.ply")
+    assert run("b.ply", cwd="/", env={**os.environ, "LC_ALL": "de_DE.UTF-8"}) == first
+    assert run("c.ply", "--seed", 2) != first
+
+
+@pytest.mark.parametrize("extension", ["ply", "off", "obj", "stl", "PLY"])
+def test_formats_there_and_back(remesh, tmp_path, extension):
+    points, faces = plyfile.box()
+    write = {"ply": plyfile.write_ply, "off": plyfile.write_off, "obj": plyfile.write_obj, "stl": plyfile.write_stl}
+    source = write[extension.lower()](str(tmp_path / f"in.{extension}"), points, faces)
+    middle, back = tmp_path / f"out.{extension}", tmp_path / "back.ply"
+    assert remesh(source, middle, "-n", 200, *FAST).returncode == 0
+    assert remesh(middle, back, "-n", 150, "--report", tmp_path / "r.json", *FAST).returncode == 0
+    data = json.loads((tmp_path / "r.json").read_text())
+    assert data["input"]["vertices"] == 200 and data["result"]["euler"] == 2
+
+
+def test_options_change_the_result(remesh, samples, tmp_path):
+    def result(*extra):
+        run = remesh(f"{samples}/bumpy.ply", tmp_path / "o.ply", "-n", 500, *FAST, *extra)
+        assert run.returncode == 0, run.stderr
+        return (tmp_path / "o.ply").read_bytes()
+    seen = {result()}
+    for extra in (("--lambda", "0.05"), ("--local-iterations", "1"), ("--density", "curvature"),
+                  ("--density", "curvature", "--density-exponent", "1")):
+        seen.add(result(*extra))
+    assert len(seen) == 5
+    assert result("--optimizer", "annealing", "--sampler", "random", "--density", "uniform") in seen
+
+
+def test_density_from_vertex_quality(remesh, tmp_path):
+    points, faces = plyfile.grid(30)
+    source = plyfile.write_ply(str(tmp_path / "q.ply"), points, faces, [1 + 9 * (p[0] > 0.5) for p in points])
+    assert remesh(source, tmp_path / "o.obj", "-n", 1500, "--density", "quality", *FAST).returncode == 0
+    xs = [float(line.split()[1]) for line in open(tmp_path / "o.obj", encoding="ascii") if line.startswith("v ")]
+    assert sum(x > 0.55 for x in xs) > 4 * sum(x < 0.45 for x in xs)
+    plain = plyfile.write_ply(str(tmp_path / "p.ply"), points, faces)
+    run = remesh(plain, tmp_path / "o2.ply", "-n", 100, "--density", "quality", *FAST)
+    assert run.returncode == 4 and "density" in run.stderr
+    bad = plyfile.write_ply(str(tmp_path / "b.ply"), points, faces, [-1.0] * 5 + [1.0] * (len(points) - 5))
+    run = remesh(bad, tmp_path / "o3.ply", "-n", 100, "--density", "quality", *FAST)
+    assert run.returncode == 4 and "5 vertices" in run.stderr
+
+
+@pytest.mark.parametrize("args", [
+    (), ("-n", "0"), ("-n", "1"), ("-n", "3"), ("-n", "-5"), ("-n", "many"), ("-n", "1e3"), ("-n", "99999999999"),
+    ("-n", "100", "--feature-angle", "0"), ("-n", "100", "--feature-angle", "181"), ("-n", "100", "--lambda", "2"),
+    ("-n", "100", "--density", "red"), ("-n", "100", "--optimizer", "magic"), ("-n", "100", "--sampler", "x"),
+    ("-n", "100", "--global-iterations", "-1"), ("-n", "100", "--local-iterations", "0"), ("-n", "100", "--seed", "-1"),
+    ("-n", "100", "--no-such-option")])
+def test_wrong_usage(remesh, samples, tmp_path, args):
+    run = remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", *args)
+    assert run.returncode == 2
+    assert run.stderr + run.stdout
+    assert not list(tmp_path.iterdir())
+
+
+def test_unknown_output_format_is_wrong_usage(remesh, samples, tmp_path):
+    assert remesh(f"{samples}/sphere.ply", tmp_path / "o.xyz", "-n", 100).returncode == 2
+
+
+def test_output_that_cannot_be_written(remesh, samples, tmp_path):
+    run = remesh(f"{samples}/sphere.ply", tmp_path / "no" / "such" / "o.ply", "-n", 100, *FAST)
+    assert run.returncode == 5 and run.stderr
+    (tmp_path / "o.ply").mkdir()
+    assert remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", "-n", 100, *FAST).returncode == 5
+    assert [p.name for p in tmp_path.iterdir()] == ["o.ply"]
+
+
+def test_no_space_left(remesh, samples, tmp_path):
+    if os.geteuid() != 0:
+        pytest.skip("a file system of a few kilobytes needs root")
+    full = tmp_path / "full"
+    full.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", full], check=False,
+                      capture_output=True).returncode != 0:
+        pytest.skip("no file system can be mounted here")
+    try:
+        run = remesh(f"{samples}/sphere.ply", full / "o.ply", "-n", 3000, *FAST)
+        assert run.returncode == 5
+        assert not list(full.iterdir())
+    finally:
+        subprocess.run(["umount", full], check=True)
+
+
+def test_existing_output_survives_a_failure(remesh, tmp_path):
+    out = tmp_path / "o.ply"
+    out.write_text("precious")
+    assert remesh(tmp_path / "missing.ply", out, "-n", 100, *FAST).returncode == 3
+    assert out.read_text() == "precious"
+
+
+def test_interrupt_writes_nothing(samples, tmp_path):
+    out = tmp_path / "o.ply"
+    process = subprocess.Popen([os.environ["CCDM_REMESH"], f"{samples}/bumpy.ply", out, "-n", "30000",
+                                "--global-iterations", "100000", "--quiet"])
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=60) == 130
+    assert not list(tmp_path.iterdir())
+
+
+def test_figures_agree_with_the_independent_program(remesh, measure, samples, tmp_path):
+    for name, angle in (("cad_part", 40), ("klein_bottle", 180), ("plate", 60), ("bust", 180)):
+        out, report = tmp_path / "o.ply", tmp_path / "r.json"
+        source = f"{samples}/{name}.ply"
+        assert remesh(source, out, "-n", 2000, "--feature-angle", angle, "--report", report, *FAST).returncode == 0
+        ours = json.loads(report.read_text())["result"]
+        theirs = json.loads(subprocess.run([measure, source, out, "--samples", "200000"], capture_output=True, text=True,
+                                           check=True).stdout)
+        for key in ("euler", "components", "boundary_loops", "genus", "orientable"):
+            assert ours[key] == theirs[key], (name, key)
+        for key in ("angle_min_avg", "angle_min", "pct_lt30", "q_fb99_avg", "q_fb99_min", "pct_valence6"):
+            assert ours[key] == pytest.approx(theirs[key], rel=1e-6, abs=1e-9), (name, key)
+        assert ours["hausdorff"] == pytest.approx(theirs["hausdorff"], rel=0.12), name
+        assert ours["rms"] == pytest.approx(theirs["rms"], rel=0.03), name
+        assert theirs["topology_kept"]
+
+
+def test_real_models_keep_topology_and_count(remesh, measure, tmp_path):
+    meshes = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
+    if not os.path.isdir(meshes):
+        pytest.skip("the real models are not at hand")
+    for name, n in (("joint", 3000), ("twist", 2500), ("pig", 3000), ("klein_bottle", 2500), ("moai", 3000),
+                    ("bunny_scan", 4000), ("julius_noisy", 5000)):
+        out = tmp_path / "o.ply"
+        run = remesh(f"{meshes}/{name}.ply", out, "-n", n, "--feature-angle", 60 if name in ("joint", "twist") else 180,
+                     "--global-iterations", 10, "--quiet")
+        assert run.returncode == 0, run.stderr
+        got = json.loads(subprocess.run([measure, f"{meshes}/{name}.ply", out, "--samples", "20000"], capture_output=True,
+                                        text=True, check=True).stdout)
+        assert got["nv"] == n and got["topology_kept"], name
+        assert got["angle_min_avg"] > 49.5, name
