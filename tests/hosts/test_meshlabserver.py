@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin inside MeshLab 2020.09's headless server, as scripts drive it."""
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as tree
+
+import pytest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+import plyfile  # noqa: E402
+
+SCRIPTS = os.environ["CCDM_SCRIPTS"]
+SAMPLES = os.environ["CCDM_SAMPLES"]
+MESHES = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
+FILTER = "Remeshing: Isotropic CCDM (constrained centroidal Delaunay mesh)"
+# The order in which the filter declares its parameters: meshlabserver wants all of them, in it.
+DECLARED = [("vertex_count", "RichInt"), ("feature_angle", "RichFloat"), ("lambda", "RichFloat"),
+            ("global_iterations", "RichInt"), ("local_iterations", "RichInt"), ("density", "RichEnum"),
+            ("selected_edges", "RichBool"), ("seed", "RichInt"), ("new_layer", "RichBool")]
+
+
+def script_names():
+    return sorted(n for n in os.listdir(SCRIPTS) if n.endswith(".mlx"))
+
+
+def run_server(source, script, out, *extra):
+    server = os.path.join(os.environ["CCDM_HOST"], "bin", "meshlabserver")
+    return subprocess.run(["xvfb-run", "-a", server, "-i", str(source), "-s", str(script), "-o", str(out), *extra],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=240, check=False)
+
+
+def variant(tmp_path, **changes):
+    """The uniform script with some values changed; None drops the parameter."""
+    document = tree.parse(os.path.join(SCRIPTS, "ccdm_uniform.mlx"))
+    element = document.getroot().find("filter")
+    for parameter in list(element):
+        value = changes.get(parameter.get("name"), "same")
+        if value is None:
+            element.remove(parameter)
+        elif value != "same":
+            parameter.set("value", str(value))
+    path = tmp_path / "script.mlx"
+    path.write_bytes(b"<!DOCTYPE FilterScript>\n" + tree.tostring(document.getroot()))
+    return path
+
+
+@pytest.mark.parametrize("name", script_names())
+def test_script_names_every_parameter_in_order(name):
+    root = tree.parse(os.path.join(SCRIPTS, name)).getroot()
+    (element,) = root.findall("filter")
+    assert element.get("name") == FILTER
+    assert [(p.get("name"), p.get("type")) for p in element] == DECLARED
+
+
+@pytest.mark.parametrize("name", script_names())
+def test_shipped_script_runs(tmp_path, name):
+    out = tmp_path / "o.ply"
+    run = run_server(f"{SAMPLES}/cad_part.ply", os.path.join(SCRIPTS, name), out)
+    assert run.returncode == 0, run.stdout[-2000:]
+    assert plyfile.count_ply(out)[0] == 5000
+    assert "topology preserved (Euler characteristic -2" in run.stdout
+
+
+def test_real_mesh(tmp_path):
+    if not os.path.isdir(MESHES):
+        pytest.skip("the real models are not at hand")
+    for name in ("klein_bottle", "pig"):
+        out = tmp_path / "o.ply"
+        run = run_server(f"{MESHES}/{name}.ply", variant(tmp_path, vertex_count=2000, feature_angle=60), out)
+        assert run.returncode == 0, run.stdout[-2000:]
+        assert plyfile.count_ply(out)[0] == 2000
+        assert "topology preserved" in run.stdout
+
+
+def test_same_result_as_the_command_line(tmp_path):
+    out, cli = tmp_path / "o.ply", tmp_path / "c.ply"
+    assert run_server(f"{SAMPLES}/bumpy.ply", variant(tmp_path, vertex_count=1500, seed=3), out).returncode == 0
+    subprocess.run([os.environ["CCDM_REMESH"], f"{SAMPLES}/bumpy.ply", cli, "-n", "1500", "--seed", "3", "--quiet"],
+                   check=True)
+
+    def faces(path):
+        data = open(path, "rb").read()
+        return data[-13 * plyfile.count_ply(path)[1]:]
+    assert faces(out) == faces(cli), "same connectivity; positions differ by the host's single precision alone"
+
+
+def test_density_curvature_and_in_place_or_new_layer(tmp_path):
+    results = {}
+    for density in (0, 1):
+        for layer in ("true", "false"):
+            out = tmp_path / "o.ply"
+            run = run_server(f"{SAMPLES}/bumpy.ply", variant(tmp_path, vertex_count=800, global_iterations=3,
+                                                             density=density, new_layer=layer), out)
+            assert run.returncode == 0
+            results[density, layer] = out.read_bytes()
+    assert results[0, "true"] == results[0, "false"]
+    assert results[0, "true"] != results[1, "true"]
+
+
+@pytest.mark.parametrize("changes, reason", [
+    ({"vertex_count": 0}, "vertex_count must lie between 4"), ({"vertex_count": 3}, "vertex_count must lie between 4"),
+    ({"feature_angle": 0}, "feature_angle must lie"), ({"lambda": 7}, "lambda must lie"),
+    ({"global_iterations": -1}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
+    ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie")])
+def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
+    out = tmp_path / "o.ply"
+    run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, **changes), out)
+    assert run.returncode == 255
+    assert "CCDM remeshing was not done" in run.stdout and reason in run.stdout
+    assert not out.exists()
+
+
+def test_missing_parameter_is_refused(tmp_path):
+    run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, seed=None), tmp_path / "o.ply")
+    assert run.returncode == 134, "the host's own assertion"
+    assert not (tmp_path / "o.ply").exists()
+
+
+def test_non_manifold_input_is_refused(tmp_path):
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)]
+    source = plyfile.write_ply(str(tmp_path / "fin.ply"), points, [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
+    run = run_server(source, variant(tmp_path, vertex_count=100), tmp_path / "o.ply")
+    assert run.returncode == 255 and "1 edge has more than two faces" in run.stdout
+    assert not (tmp_path / "o.ply").exists()
+
+
+def test_exports_nothing_but_the_plugin_entry_points():
+    symbols = subprocess.run(["nm", "-D", "--defined-only", os.environ["CCDM_PLUGIN"]], capture_output=True, text=True,
+                             check=True).stdout
+    assert sorted(re.findall(r" [A-Za-z] (\S+)", symbols)) == ["qt_plugin_instance", "qt_plugin_query_metadata"]
