@@ -47,7 +47,7 @@ int main(int argc, char **argv)
     }
     const std::string dir = std::string(argv[1]) + "/";
     if (argc == 3)
-        return Write(dir + "bumpy_large.ply", shapes::Bumpy(7)) ? 0 : 1;
+        return Write(dir + "bumpy_large.ply", shapes::Bumpy(6)) ? 0 : 1;
     const bool done = Write(dir + "sphere.ply", shapes::Sphere(4)) && Write(dir + "bumpy.ply", shapes::Bumpy(5)) &&
                       Write(dir + "high_genus.ply", shapes::HighGenus(3)) &&
                       Write(dir + "cad_part.ply", shapes::CadPart()) &&

@@ -28,8 +28,8 @@ def main():
     print(f"{'n':>9}{'us / vertex and relocation':>28}{'build s':>9}{'total s':>9}")
     for n in SIZES:
         report = os.path.join(OUT, "r.json")
-        rounds = max(4, min(40, 4000000 // n))
-        subprocess.run([PROGRAM, source, os.path.join(OUT, "o.ply"), "-n", str(n), "--feature-angle", "180",
+        rounds = max(8, min(40, 4000000 // n))
+        subprocess.run([PROGRAM, source, os.path.join(OUT, "o.ply"), "-n", str(n), "--feature-angle", "180", "--optimizer", "annealing", "--sampler", "random",
                         "--global-iterations", str(rounds), "--report", report, "--quiet"], check=True)
         with open(report, encoding="utf-8") as text:
             data = json.load(text)

@@ -180,7 +180,7 @@ inline Shape Grid(int nx, int ny, const std::function<bool(int, int)> &solid,
                   const std::function<P(double, double)> &at)
 {
     Shape s;
-    std::vector<int> id(static_cast<std::size_t>((nx + 1) * (ny + 1)), -1);
+    std::vector<int> id((static_cast<std::size_t>(nx) + 1) * (static_cast<std::size_t>(ny) + 1), -1);
     const auto corner = [&](int i, int j) {
         int &k = id[static_cast<std::size_t>(i * (ny + 1) + j)];
         if (k < 0) {

@@ -97,7 +97,6 @@ TEST(Project, DoesNotCrossFeatures)
                 std::abs(s.position[m.Head(side)][0] - 0.5) < 1e-9)
                 m.SetConstrained(side, true);
         }
-    s.CopyLinks();
     int tried = 0;
     for (int t = 0; t < s.FaceCount(); ++t) {
         const Point x = s.At({t, {1.0 / 3, 1.0 / 3, 1.0 / 3}});

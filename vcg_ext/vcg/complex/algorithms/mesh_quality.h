@@ -65,8 +65,8 @@ public:
     /// Linear in the size of the mesh but for a sort. Reads positions and faces only.
     static MeshQualityReport Measure(const MeshType &m) { return Survey(TriangleSoup::From(m)).report; }
 
-    /// Distances by `samples` points spread over each surface by area, and all of its vertices (these
-    /// count for the maximum only). Deterministic.
+    /// Distances by `samples` points spread over each surface by area; the maximum also over all vertices
+    /// and over the faces where it is nearly reached. Deterministic.
     template <class OtherMesh>
     static SurfaceDistance Distance(const MeshType &original, const OtherMesh &result, int samples = 100000)
     {
@@ -75,8 +75,8 @@ public:
         SurfaceDistance d;
         if (!(diagonal > 0) || a.face.empty() || b.face.empty())
             return d;
-        const Deviation forward = MeasureDeviation(a, TriangleTree(b), samples);
-        const Deviation backward = MeasureDeviation(b, TriangleTree(a), samples);
+        const Deviation forward = DeviationMeter(a, TriangleTree(b)).Measure(samples);
+        const Deviation backward = DeviationMeter(b, TriangleTree(a)).Measure(samples);
         d.hausdorffForward = forward.max / diagonal;
         d.hausdorffBackward = backward.max / diagonal;
         d.hausdorff = std::max(d.hausdorffForward, d.hausdorffBackward);

@@ -121,14 +121,14 @@ private:
             });
         }
         _distance[r] = 1e300;
-        _remesh.mesh.GatherStar(v, _star);
-        for (const Side c : _star.corner) {
-            const double d = NearestOnRemesh(SideTriangle(c), p).squaredDistance;
+        _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+            const double d = NearestOnRemesh(SideTriangle(s), p).squaredDistance;
             if (d < _distance[r]) {
                 _distance[r] = d;
-                _owner[r] = SideTriangle(c);
+                _owner[r] = SideTriangle(s);
             }
-        }
+            return _distance[r] > 0;
+        });
         _distance[r] = std::sqrt(_distance[r]);
     }
 
@@ -175,11 +175,12 @@ private:
     struct Shape {
         double angle;    // smallest angle around the vertex
         double distance; // largest squared distance between the star and the probes that it owns
+        double turn;     // sharpest turn at an edge in or around the star, in radians
     };
 
     Shape Look(int v) const
     {
-        Shape s = {Pi, StarSquaredDistance(_model, _remesh, v, _star)};
+        Shape s = {Pi, StarSquaredDistance(_model, _remesh, v, _star), SharpestTurn()};
         for (const Side c : _star.corner) {
             const Triangle &T = _remesh.mesh.triangle[SideTriangle(c)];
             for (int i = 0; i < 3; ++i) {
@@ -197,17 +198,22 @@ private:
         return s;
     }
 
-    // Every triangle of the star faces the way of the whole within 78 degrees.
-    bool Unfolded(int v, const Point &normal) const
+    static constexpr double SharpTurn = 100 * Pi / 180;
+
+    // Sharpest turn at the edges in and around the star of v, features apart.
+    double SharpestTurn() const
     {
-        const Point &x = _remesh.position[v];
-        for (int k = 0; k < _star.Triangles(); ++k) {
-            const Point c = Cross(_remesh.position[_star.outer[k]] - x, _remesh.position[_star.OuterAfter(k)] - x);
-            const double along = Dot(c, normal);
-            if (!(along > 0) || along * along < 0.04 * SquaredNorm(c) * SquaredNorm(normal))
-                return false;
-        }
-        return true;
+        const Triangulation &m = _remesh.mesh;
+        const std::vector<Point> &x = _remesh.position;
+        double turn = 0;
+        for (const Side c : _star.corner)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(SideTriangle(c), e);
+                if (m.Mate(s) != NoSide && !m.Constrained(s))
+                    turn = std::max(turn,
+                                    TurnAngle(x[m.Tail(s)], x[m.Head(s)], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]));
+            }
+        return turn;
     }
 
     int Capture(int r, double minAngle, std::vector<char> &settled)
@@ -226,23 +232,28 @@ private:
             if (settled[o])
                 return -1;
         const Point old = _remesh.position[v];
-        Point normal(0, 0, 0);
-        for (int k = 0; k < _star.Triangles(); ++k)
-            normal += Cross(_remesh.position[_star.outer[k]] - old, _remesh.position[_star.OuterAfter(k)] - old);
-        const Shape before = Look(v);
         const int oldFace = _remesh.place[v].face;
-        _remesh.position[v] = target;
-        _remesh.place[v].face = _probe[r].face;
-        const Shape after = Look(v);
-        if (!Unfolded(v, normal) || after.angle < std::min(before.angle, minAngle) ||
-            after.distance >= before.distance) {
-            _remesh.position[v] = old;
-            _remesh.place[v].face = oldFace;
-            return -1;
+        const Shape before = Look(v);
+        // All the way to the tip, or part of it.
+        for (const double way : {1.0, 0.75, 0.5}) {
+            _remesh.position[v] = target;
+            _remesh.place[v].face = _probe[r].face;
+            if (way < 1) {
+                const auto [face, foot] = _model.surface.Project(_probe[r].face, target, old + (target - old) * way, 0);
+                _remesh.position[v] = foot.point;
+                _remesh.place[v].face = face;
+            }
+            const Shape after = Look(v);
+            if (after.turn <= std::max(before.turn, SharpTurn) && after.angle >= std::min(before.angle, minAngle) &&
+                after.distance < before.distance) {
+                _remesh.rho[v] = _model.density.rho[_probe[r].vertex];
+                settled[v] = 1;
+                return v;
+            }
         }
-        _remesh.rho[v] = _model.density.rho[_probe[r].vertex];
-        settled[v] = 1;
-        return v;
+        _remesh.position[v] = old;
+        _remesh.place[v].face = oldFace;
+        return -1;
     }
 };
 

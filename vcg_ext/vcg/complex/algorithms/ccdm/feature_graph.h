@@ -134,7 +134,6 @@ public:
         Prune();
         CollectSpokes();
         TraceCurves();
-        _surface.CopyLinks();
         return std::move(_graph);
     }
 

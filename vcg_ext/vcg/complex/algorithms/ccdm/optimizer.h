@@ -36,6 +36,19 @@ public:
         return false;
     }
 
+    /// After Run: puts vertices on tips that are still cut off, opens folds, brings back triangles that
+    /// stray from the surface, and raises the smallest angles.
+    void Close()
+    {
+        ReleaseExtremes();
+        Polish polish(_model, _remesh);
+        polish.Unfold(10);
+        polish.Approach(5, 30, 5);
+        polish.RaiseAngles(34, 0.1, 20);
+        polish.RaiseAngles(30, 0.3, 20);
+        polish.RaiseAngles(30, 1.0, 20);
+    }
+
 private:
     const Model &_model;
     const Params &_params;
@@ -111,13 +124,6 @@ private:
                 return false;
         }
         OptimizeLocally();
-        ReleaseExtremes();
-        Polish polish(_model, _remesh);
-        polish.Unfold(10);
-        polish.Approach(5, 30, 5);
-        polish.RaiseAngles(34, 0.1, 20);
-        polish.RaiseAngles(30, 0.3, 20);
-        polish.RaiseAngles(30, 1.0, 20);
         return true;
     }
 };

@@ -30,32 +30,18 @@ public:
         : position(std::move(points))
     {
         mesh.Build(static_cast<int>(position.size()), faces);
-        _facet.resize(faces.size());
-        for (std::size_t t = 0; t < faces.size(); ++t) {
-            Facet &f = _facet[t];
-            f.origin = position[faces[t][0]];
-            f.e1 = position[faces[t][1]] - f.origin;
-            f.e2 = position[faces[t][2]] - f.origin;
-        }
-        CopyLinks();
     }
 
-    /// Takes over the feature marks of `mesh`, which projection does not cross.
-    void CopyLinks()
+    int FaceCount() const { return mesh.TriangleCount(); }
+    Point AreaVector(int face) const
     {
-        for (std::size_t t = 0; t < _facet.size(); ++t) {
-            const Triangle &T = mesh.triangle[t];
-            for (int e = 0; e < 3; ++e)
-                _facet[t].link[e] = T.Constrained(e) ? NoSide : T.n[e];
-        }
+        const Point &a = Corner(face, 0);
+        return Cross(Corner(face, 1) - a, Corner(face, 2) - a) * 0.5;
     }
-
-    int FaceCount() const { return static_cast<int>(_facet.size()); }
-    Point AreaVector(int face) const { return Cross(_facet[face].e1, _facet[face].e2) * 0.5; }
     Point At(const SurfacePoint &p) const
     {
-        const Facet &f = _facet[p.face];
-        return f.origin + f.e1 * p.weight[1] + f.e2 * p.weight[2];
+        const Point &a = Corner(p.face, 0);
+        return a + (Corner(p.face, 1) - a) * p.weight[1] + (Corner(p.face, 2) - a) * p.weight[2];
     }
     /// Linear interpolation of a per-vertex field.
     double Interpolate(const SurfacePoint &p, const std::vector<double> &field) const
@@ -89,21 +75,19 @@ public:
         visited[count++] = from;
         int face = from;
         for (;;) {
-            const Facet &f = _facet[face];
-            const Point e12 = f.e2 - f.e1, corner1 = f.origin + f.e1;
+            const Triangle &T = mesh.triangle[face];
             for (int e = 0; e < 3; ++e) {
-                const Side link = f.link[e];
-                if (link == NoSide || gates == MaxGates)
+                const Side link = T.n[e];
+                if (link == NoSide || T.Constrained(e) || gates == MaxGates)
                     continue;
                 bool known = false;
                 for (int k = count - 1; k >= 0 && !known; --k)
                     known = visited[k] == SideTriangle(link);
                 if (known)
                     continue;
-                const double d = e == 0   ? SegmentSquaredDistance(target, corner1, e12)
-                                 : e == 1 ? SegmentSquaredDistance(target, f.origin, f.e2)
-                                          : SegmentSquaredDistance(target, f.origin, f.e1);
-                if (d <= reach)
+                const Point &tail = position[T.v[Next(e)]];
+                const double d = SegmentSquaredDistance(target, tail, position[T.v[Prev(e)]] - tail);
+                if (d <= std::min(reach, 4 * best.squaredDistance))
                     gate[gates++] = {d, link};
             }
             bool moved = false;
@@ -112,6 +96,10 @@ public:
                 for (int k = 1; k < gates; ++k)
                     if (gate[k].distance < gate[nearest].distance)
                         nearest = k;
+                if (gate[nearest].distance > 4 * best.squaredDistance) {
+                    gates = 0;
+                    break;
+                }
                 face = SideTriangle(gate[nearest].side);
                 gate[nearest] = gate[--gates];
                 moved = true;
@@ -135,20 +123,15 @@ public:
     /// Nearest point of one face.
     Foot NearestOn(int face, const Point &p) const
     {
-        const Facet &f = _facet[face];
-        return NearestOnTriangle(f.origin, f.e1, f.e2, p);
+        const Point &a = Corner(face, 0);
+        return NearestOnTriangle(a, Corner(face, 1) - a, Corner(face, 2) - a, p);
     }
 
 private:
     static constexpr int MaxVisited = 192;
     static constexpr int MaxGates = 256;
 
-    // What a projection reads of a face, side by side in memory.
-    struct Facet {
-        Point origin, e1, e2;
-        Side link[3]; // over features: none
-    };
-    std::vector<Facet> _facet;
+    const Point &Corner(int face, int i) const { return position[mesh.triangle[face].v[i]]; }
 };
 
 } // namespace ccdm

@@ -74,10 +74,15 @@ private:
             return false;
         CountExtra(model, remesh);
 
-        if (!Begin("optimising", 20, 97))
+        if (!Begin("optimising", 20, 92))
             return false;
-        if (!Optimizer(model, _params, remesh, _report).Run([this](double x) { return Advance(x); }))
+        Optimizer optimizer(model, _params, remesh, _report);
+        if (!optimizer.Run([this](double x) { return Advance(x); }))
             return false;
+
+        if (!Begin("polishing", 92, 97))
+            return false;
+        optimizer.Close();
 
         if (!Begin("checking the result", 97, 100))
             return false;
