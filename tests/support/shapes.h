@@ -182,7 +182,7 @@ inline Shape Grid(int nx, int ny, const std::function<bool(int, int)> &solid,
     Shape s;
     std::vector<int> id((static_cast<std::size_t>(nx) + 1) * (static_cast<std::size_t>(ny) + 1), -1);
     const auto corner = [&](int i, int j) {
-        int &k = id[static_cast<std::size_t>(i * (ny + 1) + j)];
+        int &k = id[static_cast<std::size_t>(i) * (static_cast<std::size_t>(ny) + 1) + static_cast<std::size_t>(j)];
         if (k < 0) {
             s.points.push_back(at(static_cast<double>(i) / nx, static_cast<double>(j) / ny));
             k = static_cast<int>(s.points.size()) - 1;
