@@ -49,6 +49,14 @@ Params ReadParameters(const RichParameterList &list)
     if (density < 0 || density > 2)
         throw Failure("density must be 0 (uniform), 1 (curvature) or 2 (vertex quality)");
     p.density = static_cast<vcg::ccdm::DensityKind>(density);
+    const int optimizer = list.getEnum("optimizer");
+    if (optimizer < 0 || optimizer > 1)
+        throw Failure("optimizer must be 0 (accelerated) or 1 (annealing, the paper's)");
+    if (optimizer == 1) {
+        p.optimizer = vcg::ccdm::OptimizerKind::Annealing;
+        p.sampler = vcg::ccdm::SamplerKind::Random;
+    }
+    p.minAngle = real("min_angle", 0, 45);
     p.useMarkedEdges = list.getBool("selected_edges");
     p.seed = static_cast<std::uint32_t>(whole("seed", 0, 2147483647));
     return p;
@@ -127,7 +135,8 @@ void FilterCcdmPlugin::initParameterSet(QAction *, MeshModel &layer, RichParamet
                                       "kept. Degrees, above 0 up to 180; at 180 only boundaries are features.")));
     parameters.addParam(RichFloat("lambda", static_cast<float>(p.lambda), "Lambda (perturbation)",
                                   Tip("Size of the random perturbation relative to the edge length, 0 to 1. The paper "
-                                      "recommends 0.2.")));
+                                      "recommends 0.2. The accelerated optimizer starts at half of it and fades "
+                                      "it out.")));
     parameters.addParam(RichInt("global_iterations", p.globalIterations, "Global iterations (NG)",
                                 Tip("Number of perturb-and-optimise rounds, 0 or more. Triangles get better with more "
                                     "rounds; time grows in proportion.")));
@@ -137,6 +146,12 @@ void FilterCcdmPlugin::initParameterSet(QAction *, MeshModel &layer, RichParamet
         RichEnum("density", 0, QStringList({"Uniform", "Curvature", "Vertex quality"}), "Density",
                  Tip("What the density of the vertices follows: nothing, the curvature of the surface, or "
                      "the quality of its vertices (positive values; larger means denser).")));
+    parameters.addParam(RichEnum("optimizer", 0, QStringList({"Accelerated", "Annealing (the paper's)"}), "Optimizer",
+                                 Tip("Accelerated gives better triangles in the same time; Annealing, with random "
+                                     "samples, is the method as published.")));
+    parameters.addParam(RichFloat("min_angle", static_cast<float>(vcg::ccdm::MinAngle(p)), "Smallest angle (deg)",
+                                  Tip("The closing polish aims at no angle below this, 0 to 45 degrees. Sharp corners "
+                                      "of the input can forbid it; the log says what was reached.")));
     parameters.addParam(
         RichBool("selected_edges", false, "Selected edges are features",
                  Tip("Keeps the selected face edges (see \"Select Crease Edges\") as features, in addition "

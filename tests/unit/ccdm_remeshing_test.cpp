@@ -61,6 +61,7 @@ TEST(CCDMRemeshing, EnergyNeverRisesBetweenPins)
     meshes::Fill(m, shapes::Bumpy(3));
     Params p = Quick(400);
     p.globalIterations = 30;
+    p.optimizer = vcg::ccdm::OptimizerKind::Annealing;
     const Report r = Remesh(m, p);
     ASSERT_EQ(r.energy.size(), 31U);
     // Up to the capture of extremes, nine rounds before the end, only better states are kept.

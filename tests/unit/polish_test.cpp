@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
 

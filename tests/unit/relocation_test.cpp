@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <vcg/complex/algorithms/ccdm/relocation.h>
+#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 
 #include <gtest/gtest.h>
 

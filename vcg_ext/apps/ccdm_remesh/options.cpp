@@ -17,8 +17,9 @@ using vcg::ccdm::SamplerKind;
 
 const std::map<std::string, DensityKind> densities = {
     {"uniform", DensityKind::Uniform}, {"curvature", DensityKind::Curvature}, {"quality", DensityKind::Quality}};
-const std::map<std::string, OptimizerKind> optimizers = {{"annealing", OptimizerKind::Annealing}};
-const std::map<std::string, SamplerKind> samplers = {{"random", SamplerKind::Random}};
+const std::map<std::string, OptimizerKind> optimizers = {{"accelerated", OptimizerKind::Accelerated},
+                                                         {"annealing", OptimizerKind::Annealing}};
+const std::map<std::string, SamplerKind> samplers = {{"front", SamplerKind::Front}, {"random", SamplerKind::Random}};
 
 template <class Kind>
 const char *Lookup(const std::map<std::string, Kind> &names, Kind kind)
@@ -51,12 +52,16 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     app.add_option("--density", p.density, "what the vertex density follows: uniform (default), curvature, quality")
         ->transform(CLI::CheckedTransformer(densities, CLI::ignore_case));
     app.add_option("--density-exponent", p.densityExponent,
-                   "gamma in rho = phi^gamma, the weight in the energy, 0 to 3 (default: 0.2)")
+                   "gamma in rho = phi^gamma, the weight in the energy, 0 to 3 (default: 2; with annealing 0.2)")
         ->check(CLI::Range(0.0, 3.0));
-    app.add_option("--optimizer", p.optimizer, "annealing (default): the paper's")
+    app.add_option("--optimizer", p.optimizer, "accelerated (default), or annealing: the paper's")
         ->transform(CLI::CheckedTransformer(optimizers, CLI::ignore_case));
-    app.add_option("--sampler", p.sampler, "random (default): drawn in proportion to the density")
+    app.add_option("--sampler", p.sampler,
+                   "front (default): laid out in hexagons; or random: drawn in proportion to the density")
         ->transform(CLI::CheckedTransformer(samplers, CLI::ignore_case));
+    app.add_option("--min-angle", p.minAngle,
+                   "smallest angle that the closing polish aims at, degrees, 0 to 45 (default: 40; with annealing 34)")
+        ->check(CLI::Range(0.0, 45.0));
     app.add_option("--seed", p.seed, "of the random generator, 0 to 4294967295")->capture_default_str();
 }
 

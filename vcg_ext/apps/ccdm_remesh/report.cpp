@@ -49,7 +49,8 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["global_iterations"] = p.globalIterations;
     j["local_iterations"] = p.localIterations;
     j["density"] = NameOf(p.density);
-    j["density_exponent"] = p.densityExponent.value_or(0.2);
+    j["density_exponent"] = DensityExponent(p);
+    j["min_angle"] = MinAngle(p);
     j["optimizer"] = NameOf(p.optimizer);
     j["sampler"] = NameOf(p.sampler);
     j["seed"] = p.seed;

@@ -5,10 +5,11 @@
 #include <functional>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/angle_polish.h>
+#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
 #include <vcg/complex/algorithms/ccdm/polish.h>
-#include <vcg/complex/algorithms/ccdm/relocation.h>
 
 namespace vcg {
 namespace ccdm {
@@ -32,6 +33,8 @@ public:
         switch (_params.optimizer) {
         case OptimizerKind::Annealing:
             return Anneal(progress);
+        case OptimizerKind::Accelerated:
+            return Accelerate(progress);
         }
         return false;
     }
@@ -44,7 +47,7 @@ public:
         Polish polish(_model, _remesh);
         polish.Unfold(10);
         polish.Approach(5, 30, 5);
-        polish.RaiseAngles(34, 0.1, 20);
+        polish.RaiseAngles(MinAngle(_params), 0.1, 20);
         polish.RaiseAngles(30, 0.3, 20);
         polish.RaiseAngles(30, 1.0, 20);
     }
@@ -126,6 +129,46 @@ private:
         OptimizeLocally();
         return true;
     }
+
+    // Momentum on the cell centroid, with noise that fades out: moves past the poor local optima where
+    // plain relocation stalls. Ends with relocations to the patch centroid, so that the result is a
+    // centroidal Delaunay mesh as the paper defines it.
+    bool Accelerate(const Progress &progress)
+    {
+        const bool uniform = _model.density.uniform;
+        const int count = _params.globalIterations * _params.localIterations;
+        std::vector<Point> last = _remesh.position;
+        const HeavyBall<CellCentroid> pull = {{_remesh, uniform}, {_remesh, uniform}, 1.5, 0.6, _remesh.position, last};
+        Flip();
+        _report.energy.assign(1, Energy(_remesh));
+        for (int i = 0; i < count; ++i) {
+            const double noise = 0.5 * _params.lambda * (1 - i / (0.6 * count));
+            if (i % 3 == 0 && noise > 0) {
+                Perturbation perturb{noise, _random};
+                Sweep([&](const LocalStar &star, int v) { return Point(pull(star, v) + perturb(star, v)); });
+            } else {
+                Sweep(pull);
+            }
+            Flip();
+            if ((i + 1) % _params.localIterations == 0) {
+                _report.energy.push_back(Energy(_remesh));
+                ++_report.accepted; // no state is taken back
+            }
+            if (i == count * 4 / 5 || i == count * 9 / 10)
+                PinExtremes();
+            if (!progress(0.9 * (i + 1) / count))
+                return false;
+        }
+        for (int i = 0; i < ClosingRelocations; ++i) {
+            Sweep(PatchCentroid{_remesh, uniform});
+            Flip();
+        }
+        AnglePolish(_model, _remesh).Run(PolishRounds);
+        return progress(1);
+    }
+
+    static constexpr int ClosingRelocations = 6;
+    static constexpr int PolishRounds = 10;
 };
 
 } // namespace ccdm

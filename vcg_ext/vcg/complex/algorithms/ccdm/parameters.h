@@ -21,12 +21,14 @@ enum class DensityKind {
 
 /// How the mesh is optimised once it has been built.
 enum class OptimizerKind {
-    Annealing ///< the paper's local and global optimisation (sections 3.3 and 3.4)
+    Annealing,  ///< the paper's local and global optimisation (sections 3.3 and 3.4)
+    Accelerated ///< momentum on the cell centroid, fading noise, closing relocations
 };
 
 /// How the samples that become the output's vertices are laid on the input.
 enum class SamplerKind {
-    Random ///< drawn in proportion to the density (section 3.2)
+    Random, ///< drawn in proportion to the density (section 3.2)
+    Front   ///< laid out in hexagons by an advancing front
 };
 
 /// Parameters of the remesher. Values only; a default-constructed object needs just vertexCount.
@@ -39,20 +41,37 @@ struct Params {
     /// Takes the edges that the caller has marked as features in addition to those found by angle.
     bool useMarkedEdges = false;
     /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
-    /// equation (4); range [0, 1].
+    /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
-    /// Number of perturb-optimise rounds, the paper's NG; at least 0.
+    /// Number of perturb-optimise rounds, the paper's NG; at least 0. The accelerated optimiser does NG * NL
+    /// relocations.
     int globalIterations = 40;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
     int localIterations = 3;
     DensityKind density = DensityKind::Uniform;
-    /// gamma in rho = phi^gamma, the weight in the energy; range [0, 3]. Unset: 1/5, as in the paper.
+    /// gamma in rho = phi^gamma, the weight in the energy; range [0, 3]. Unset: 1/5 with annealing, as in
+    /// the paper; 2 with the accelerated optimiser, which makes the vertex density proportional to phi.
     std::optional<double> densityExponent;
-    OptimizerKind optimizer = OptimizerKind::Annealing;
-    SamplerKind sampler = SamplerKind::Random;
+    OptimizerKind optimizer = OptimizerKind::Accelerated;
+    SamplerKind sampler = SamplerKind::Front;
+    /// Smallest angle that the closing polish aims at, in degrees; range [0, 45]. Unset: 40 with the
+    /// accelerated optimiser, 34 with annealing.
+    std::optional<double> minAngle;
     /// Seed of the only random generator; equal input, parameters and seed give equal results.
     std::uint32_t seed = 1;
 };
+
+/// The gamma of a run.
+inline double DensityExponent(const Params &p)
+{
+    return p.densityExponent.value_or(p.optimizer == OptimizerKind::Accelerated ? 2.0 : 0.2);
+}
+
+/// The smallest angle that a run aims at, in degrees.
+inline double MinAngle(const Params &p)
+{
+    return p.minAngle.value_or(p.optimizer == OptimizerKind::Accelerated ? 40.0 : 34.0);
+}
 
 /// How a run ended.
 enum class Status {
@@ -109,7 +128,7 @@ struct Report {
     int featureCorners = 0;
     int prunedFragments = 0; ///< feature fragments shorter than the local spacing, ignored
 
-    std::vector<double> energy; ///< F of the kept state after each global iteration, first the start
+    std::vector<double> energy; ///< F of the kept state, first the start, then after each global iteration
     int accepted = 0;           ///< global iterations whose result was kept
     long long relocations = 0;  ///< vertex relocations tried, all sweeps together
     long long flips = 0;        ///< edge flips done by the optimiser

@@ -19,7 +19,8 @@ struct LocalStar {
     std::vector<int> id;           ///< outer vertices
     std::vector<Point> spoke;      ///< their positions relative to the centre
     std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
-    std::vector<char> sectorStart; ///< a feature edge runs along spoke k
+    std::vector<char> sectorStart; ///< a feature edge runs along spoke k; filled for curve vertices
+    std::vector<char> wall;        ///< the outer side of triangle k is a feature or boundary edge
     Point normal;                  ///< sum of the cross products
     double radius = 0;             ///< mean length of the spokes
 
@@ -59,6 +60,28 @@ public:
         return Move(v, step, [&](const Point &q) { return score(_star, q) > before + 1e-6; });
     }
 
+    /// One step of a search for the best place of v: of six directions in the tangent plane, `size` times
+    /// the mean edge length away, takes the best if score(star, position relative to v) rises by that.
+    template <class Score>
+    bool Climb(int v, double size, double turn, Score score)
+    {
+        Gather(v);
+        const double before = score(_star, Point(0, 0, 0));
+        const double length = size * _star.radius;
+        const Point t1 = TangentStep(_star, turn), t2 = Cross(Normalized(_star.normal), t1);
+        Point best(0, 0, 0);
+        double highest = before;
+        for (int k = 0; k < 6; ++k) {
+            const Point q = t1 * (length * Hexagon[k][0]) + t2 * (length * Hexagon[k][1]);
+            const double s = score(_star, q);
+            if (s > highest) {
+                highest = s;
+                best = q;
+            }
+        }
+        return Move(v, best, [&](const Point &q) { return score(_star, q) > before + 1e-9; });
+    }
+
     /// Unit vector at `angle` in the tangent plane of a star.
     static Point TangentStep(const LocalStar &star, double angle)
     {
@@ -69,6 +92,10 @@ public:
     }
 
 private:
+    // Unit vectors 60 degrees apart.
+    static constexpr double Hexagon[6][2] = {{1, 0},  {0.5, 0.8660254037844386},   {-0.5, 0.8660254037844386},
+                                             {-1, 0}, {-0.5, -0.8660254037844386}, {0.5, -0.8660254037844386}};
+
     const Model &_model;
     Remesh &_remesh;
     LocalStar _star;
@@ -80,6 +107,7 @@ private:
         s.id.clear();
         s.spoke.clear();
         s.sectorStart.clear();
+        s.wall.clear();
         s.closed = true;
         const bool curve = _remesh.place[v].kind == VertexKind::Curve;
         const Point x = _remesh.position[v];
@@ -98,6 +126,7 @@ private:
             const Triangle &T = m.triangle[t];
             s.id.push_back(T.v[j]);
             s.spoke.push_back(_remesh.position[T.v[j]] - x);
+            s.wall.push_back(static_cast<char>(T.Constrained(i)));
             if (curve)
                 s.sectorStart.push_back(static_cast<char>(T.Constrained(3 - i - j)));
             const Side next = T.n[j];
@@ -308,39 +337,6 @@ private:
         return after > before;
     }
     std::vector<Point> _sector;
-};
-
-/// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
-struct PatchCentroid {
-    const Remesh &remesh;
-    bool uniform;
-
-    Point operator()(const LocalStar &star, int v) const
-    {
-        Point sum(0, 0, 0);
-        double mass = 0;
-        for (int k = 0; k < star.triangles; ++k) {
-            const int next = star.After(k);
-            double m = Norm(star.cross[k]);
-            if (!uniform)
-                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
-            sum += (star.spoke[k] + star.spoke[next]) * m;
-            mass += m;
-        }
-        return mass > 0 ? sum / (3 * mass) : Point(0, 0, 0);
-    }
-};
-
-/// Random step of at most lambda times the mean edge length in the tangent plane: equation (4).
-struct Perturbation {
-    double lambda;
-    Random &random;
-
-    Point operator()(const LocalStar &star, int) const
-    {
-        const double u = random.Unit(), angle = 2 * Pi * random.Unit();
-        return Relocator::TangentStep(star, angle) * (lambda * star.radius * u);
-    }
 };
 
 /// The energy F of equation (1): 5/12 of the sum over the triangles of density * area * the sum of

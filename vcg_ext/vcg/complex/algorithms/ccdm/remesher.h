@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/front_sampler.h>
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
 #include <vcg/complex/algorithms/ccdm/input_mesh.h>
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
@@ -63,20 +64,42 @@ private:
         if (!FindFeatures(model, prepared.mesh))
             return false;
 
+        Remesh remesh;
+        if (!Attempt(model, _params, remesh)) {
+            // At a handful of vertices on a curved surface the momentum can fold what annealing does not.
+            if (_report.status != Status::CheckFailed || _params.optimizer == OptimizerKind::Annealing)
+                return false;
+            _report.warnings.push_back("annealed with random samples, as another attempt failed: " + _report.message);
+            _report.message.clear();
+            Params careful = _params;
+            careful.optimizer = OptimizerKind::Annealing;
+            careful.sampler = SamplerKind::Random;
+            remesh = Remesh();
+            if (!Attempt(model, careful, remesh))
+                return false;
+        }
+        WriteBack(prepared, remesh, output);
+        Finish();
+        return true;
+    }
+
+    // Samples, builds, optimises and checks. False when it was cancelled or the check failed.
+    bool Attempt(const Model &model, const Params &params, Remesh &remesh)
+    {
         if (!Begin("sampling", 6, 8))
             return false;
-        const SampleSet samples = Sample(model);
+        const SampleSet samples = Sample(model, params);
 
         if (!Begin("building the initial mesh", 8, 20))
             return false;
-        Remesh remesh;
         if (!InitialMeshBuilder(model, samples).Build(remesh, [this](double x) { return Advance(x); }))
             return false;
         CountExtra(model, remesh);
 
         if (!Begin("optimising", 20, 92))
             return false;
-        Optimizer optimizer(model, _params, remesh, _report);
+        _report.accepted = 0;
+        Optimizer optimizer(model, params, remesh, _report);
         if (!optimizer.Run([this](double x) { return Advance(x); }))
             return false;
 
@@ -84,13 +107,7 @@ private:
             return false;
         optimizer.Close();
 
-        if (!Begin("checking the result", 97, 100))
-            return false;
-        if (!Check(model, remesh))
-            return false;
-        WriteBack(prepared, remesh, output);
-        Finish();
-        return true;
+        return Begin("checking the result", 97, 100) && Check(model, remesh);
     }
 
     bool Fail(Status status, const std::string &why)
@@ -116,9 +133,11 @@ private:
             return bad("the number of global iterations must lie between 0 and 1000000");
         if (p.localIterations < 1 || p.localIterations > 1000000)
             return bad("the number of local iterations must lie between 1 and 1000000");
-        const double exponent = p.densityExponent.value_or(0.2);
+        const double exponent = DensityExponent(p);
         if (!(exponent >= 0 && exponent <= 3))
             return bad("the density exponent must lie between 0 and 3");
+        if (!(MinAngle(p) >= 0 && MinAngle(p) <= 45))
+            return bad("the smallest angle aimed at must lie between 0 and 45 degrees");
         _report.requestedVertices = p.vertexCount;
         return true;
     }
@@ -161,7 +180,7 @@ private:
             break;
         }
         model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
-                                         _params.densityExponent.value_or(0.2), _params.vertexCount);
+                                         DensityExponent(_params), _params.vertexCount);
         model.features = FeatureTracer(surface, model.density.spacing, marked, CornerAngle).Trace();
         _report.featureCurves = static_cast<int>(model.features.curve.size());
         _report.featureCorners = static_cast<int>(model.features.corner.size());
@@ -169,14 +188,23 @@ private:
         return true;
     }
 
-    SampleSet Sample(const Model &model)
+    SampleSet Sample(const Model &model, const Params &params)
     {
         SampleSet samples;
         Random random(_params.seed);
         samples.onCurves = SampleCurves(model.surface, model.features, model.density);
         const int featureSamples = static_cast<int>(samples.onCurves.size() + model.features.corner.size());
-        samples.onFaces =
-            SampleFaces(model.surface, model.density, std::max(0, _params.vertexCount - featureSamples), random);
+        const int rest = std::max(0, _params.vertexCount - featureSamples);
+        switch (params.sampler) {
+        case SamplerKind::Random:
+            samples.onFaces = SampleFaces(model.surface, model.density, rest, random);
+            break;
+        case SamplerKind::Front:
+            samples.onFaces =
+                FrontSampler(model.surface, model.features, model.density, _report.inputTopology.orientable)
+                    .Run(samples.onCurves, rest, random);
+            break;
+        }
         return samples;
     }
 

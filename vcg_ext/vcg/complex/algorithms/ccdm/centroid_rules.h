@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_CENTROID_RULES_H
+#define VCG_CCDM_CENTROID_RULES_H
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/relocation.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
+struct PatchCentroid {
+    const Remesh &remesh;
+    bool uniform;
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        Point sum(0, 0, 0);
+        double mass = 0;
+        for (int k = 0; k < star.triangles; ++k) {
+            const int next = star.After(k);
+            double m = Norm(star.cross[k]);
+            if (!uniform)
+                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
+            sum += (star.spoke[k] + star.spoke[next]) * m;
+            mass += m;
+        }
+        return mass > 0 ? sum / (3 * mass) : Point(0, 0, 0);
+    }
+};
+
+/// Random step of at most lambda times the mean edge length in the tangent plane: equation (4).
+struct Perturbation {
+    double lambda;
+    Random &random;
+
+    Point operator()(const LocalStar &star, int) const
+    {
+        const double u = random.Unit(), angle = 2 * Pi * random.Unit();
+        return Relocator::TangentStep(star, angle) * (lambda * star.radius * u);
+    }
+};
+
+/// Centroid of the Voronoi cell, weighted with the density. The cell is put together from the Delaunay
+/// star: between the spokes u and w it is the quadrilateral of the vertex, the middles of the spokes and
+/// the circumcentre, cut in two signed triangles at the latter. Where that reaches over a feature edge, it
+/// is clipped there.
+struct CellCentroid {
+    const Remesh &remesh;
+    bool uniform;
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        Point sum(0, 0, 0);
+        double mass = 0;
+        for (int k = 0; k < star.triangles; ++k) {
+            const int next = star.After(k);
+            const Point &u = star.spoke[k], &w = star.spoke[next];
+            const double m2 = SquaredNorm(star.cross[k]);
+            if (!(m2 > 0))
+                continue;
+            const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = Dot(u, w), m = std::sqrt(m2);
+            if (uw < 0 && star.wall[k] != 0) {
+                // The bisectors of the spokes meet the edge from u to w at the shares s and t of its length.
+                const double s = 0.5 * uu / (uu - uw), t = 1 - 0.5 * ww / (ww - uw);
+                const Point p = u * (1 - s) + w * s, q = u * (1 - t) + w * t;
+                const double rho =
+                    uniform ? 1.0 : (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]]) / 3;
+                const double first = 0.5 * s * m * rho, middle = (t - s) * m * rho, last = 0.5 * (1 - t) * m * rho;
+                sum += (u * 0.5 + p) * first + (p + q) * middle + (q + w * 0.5) * last;
+                mass += first + middle + last;
+                continue;
+            }
+            // The circumcentre is a u + b w; signed areas of the two parts.
+            const double a = ww * (uu - uw) / (2 * m2), b = uu * (ww - uw) / (2 * m2);
+            const double areaU = 0.5 * b * m, areaW = 0.5 * a * m;
+            const Point centre = u * a + w * b;
+            if (uniform) {
+                sum += u * (0.5 * areaU) + w * (0.5 * areaW) + centre * (areaU + areaW);
+                mass += areaU + areaW;
+                continue;
+            }
+            const double r = remesh.rho[v], ru = 0.5 * (r + remesh.rho[star.id[k]]),
+                         rw = 0.5 * (r + remesh.rho[star.id[next]]);
+            const double rc = std::max(r + 2 * a * (ru - r) + 2 * b * (rw - r), 0.1 * r);
+            sum += (u * (0.5 * (r + 2 * ru + rc)) + centre * (r + ru + 2 * rc)) * (0.25 * areaU);
+            sum += (w * (0.5 * (r + 2 * rw + rc)) + centre * (r + rw + 2 * rc)) * (0.25 * areaW);
+            mass += ((r + ru + rc) * areaU + (r + rw + rc) * areaW) / 3;
+        }
+        return mass > 0 ? sum / (3 * mass) : Point(0, 0, 0);
+    }
+};
+
+/// Momentum on a relocation rule (Polyak's heavy ball): the step is weight times the rule's displacement
+/// plus momentum times the vertex's last step. Vertices of curves, where that would overshoot, go to the
+/// centroid of their star.
+template <class Rule>
+struct HeavyBall {
+    Rule rule;
+    PatchCentroid onCurves;
+    double weight, momentum;
+    const std::vector<Point> &position;
+    std::vector<Point> &last; ///< positions before the last step
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        if (!star.sectorStart.empty())
+            return onCurves(star, v);
+        const Point x = position[v];
+        const Point step = rule(star, v) * weight + (x - last[v]) * momentum;
+        last[v] = x;
+        return step;
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_FRONT_SAMPLER_H
+#define VCG_CCDM_FRONT_SAMPLER_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/sampling.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Points in buckets by cube, the cube's edge being the power of two times a base that fits the point's
+/// own spacing: finds those near a place in constant time at any gradation.
+class PointBuckets
+{
+public:
+    PointBuckets(double base, std::size_t expected) : _base(base)
+    {
+        std::size_t size = 16;
+        while (size < 2 * expected)
+            size *= 2;
+        _head.assign(size, -1);
+    }
+
+    int Size() const { return static_cast<int>(_entry.size()); }
+
+    void Add(const Point &p, double spacing)
+    {
+        const int level = Level(spacing);
+        _levels |= std::uint64_t(1) << level;
+        const double cell = Cell(level);
+        const std::size_t b = Bucket(level, Floor(p[0] / cell), Floor(p[1] / cell), Floor(p[2] / cell));
+        _entry.push_back({p, _head[b]});
+        _head[b] = Size() - 1;
+    }
+
+    /// Calls visit(index, squared distance) for every point within `radius` of p whose spacing is within
+    /// a factor of about four of `spacing`; visit returns false to stop. An index may come twice.
+    template <class Visit>
+    void Near(const Point &p, double radius, double spacing, Visit visit) const
+    {
+        const int own = Level(spacing);
+        for (int level = std::max(own - 2, 0); level <= std::min(own + 2, 63); ++level) {
+            if (((_levels >> level) & 1) == 0)
+                continue;
+            const double cell = Cell(level);
+            int low[3], high[3];
+            for (int k = 0; k < 3; ++k) {
+                low[k] = Floor((p[k] - radius) / cell);
+                high[k] = Floor((p[k] + radius) / cell);
+            }
+            for (int i = low[0]; i <= high[0]; ++i)
+                for (int j = low[1]; j <= high[1]; ++j)
+                    for (int k = low[2]; k <= high[2]; ++k)
+                        for (int at = _head[Bucket(level, i, j, k)]; at >= 0; at = _entry[at].next) {
+                            const double d = SquaredNorm(_entry[at].point - p);
+                            if (d < radius * radius && !visit(at, d))
+                                return;
+                        }
+        }
+    }
+
+private:
+    struct Entry {
+        Point point;
+        int next;
+    };
+    double _base;
+    std::uint64_t _levels = 0;
+    std::vector<int> _head;
+    std::vector<Entry> _entry;
+
+    int Level(double spacing) const
+    {
+        return std::clamp(32 + static_cast<int>(std::ceil(std::log2(spacing / _base) - 1e-9)), 0, 63);
+    }
+    double Cell(int level) const { return std::ldexp(_base, level - 32); }
+    static int Floor(double x) { return static_cast<int>(std::floor(std::clamp(x, -1e9, 1e9))); }
+    std::size_t Bucket(int level, int i, int j, int k) const
+    {
+        std::uint64_t h = static_cast<std::uint32_t>(i) * 0x9e3779b97f4a7c15ULL;
+        h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(j)) * 0xbf58476d1ce4e5b9ULL;
+        h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(k)) * 0x94d049bb133111ebULL;
+        h += static_cast<std::uint64_t>(level) * 0x632be59bd9b4e019ULL;
+        return (h ^ (h >> 31)) & (_head.size() - 1);
+    }
+};
+
+/// Lays samples out in hexagons: each sample, first in first out, proposes six more at one spacing,
+/// reached by straight lines over the surface that stop at features; a proposal is taken if nothing on
+/// its sheet is nearer than 0.7 spacings. Curve samples start the front, random points where it has not
+/// come. The spacing is scaled until nearly the wanted number comes out, the rest is added in the widest
+/// gaps or taken from the narrowest places.
+class FrontSampler
+{
+public:
+    FrontSampler(const ReferenceSurface &surface, const FeatureGraph &features, const DensityField &density,
+                 bool orientable)
+        : _surface(surface), _features(features), _density(density), _orientable(orientable)
+    {
+        _base = *std::min_element(density.spacing.begin(), density.spacing.end());
+    }
+
+    /// Exactly `count` points on faces.
+    std::vector<SurfacePoint> Run(const std::vector<CurveSample> &onCurves, int count, Random &random)
+    {
+        std::vector<SurfacePoint> best;
+        if (count <= 0)
+            return best;
+        double scale = 1;
+        int closest = -1;
+        for (int round = 0; round < 3; ++round) {
+            const std::vector<SurfacePoint> found = Advance(onCurves, count, scale, random);
+            const int miss = std::abs(static_cast<int>(found.size()) - count);
+            if (closest < 0 || miss < closest) {
+                closest = miss;
+                best = found;
+                _bestScale = scale;
+            }
+            if (miss <= 2 + count / 200)
+                break;
+            scale *= std::sqrt(static_cast<double>(std::max<std::size_t>(found.size(), 1)) / count);
+        }
+        if (static_cast<int>(best.size()) > count)
+            Thin(best, count);
+        else if (static_cast<int>(best.size()) < count)
+            Fill(best, onCurves, count, random);
+        return best;
+    }
+
+private:
+    // What keeps others away: a sample's face normal, or none for samples on features.
+    struct Keeper {
+        Point normal;
+        bool onFeature;
+    };
+    struct Sample {
+        SurfacePoint at;
+        Point point, direction; // the direction in which the front came, in the plane of its face
+    };
+
+    const ReferenceSurface &_surface;
+    const FeatureGraph &_features;
+    const DensityField &_density;
+    const bool _orientable;
+    double _base, _bestScale = 1;
+    double _scale = 1;
+    std::vector<Keeper> _keeper;
+    std::vector<Sample> _queue;
+
+    double Spacing(const SurfacePoint &p) const
+    {
+        return _scale * (_density.uniform ? _density.spacing[0] : _surface.Interpolate(p, _density.spacing));
+    }
+    const Point &Corner(int face, int i) const { return _surface.position[_surface.mesh.triangle[face].v[i]]; }
+
+    bool Compatible(const Keeper &k, const Point &normal) const
+    {
+        const double cosine = Dot(k.normal, normal);
+        return k.onFeature || (_orientable ? cosine : std::abs(cosine)) > 0.2;
+    }
+    bool Free(const PointBuckets &buckets, const Point &p, const Point &normal, double radius, double spacing) const
+    {
+        bool free = true;
+        buckets.Near(p, radius, spacing, [&](int i, double) {
+            free = !Compatible(_keeper[i], normal);
+            return free;
+        });
+        return free;
+    }
+
+    std::vector<SurfacePoint> Advance(const std::vector<CurveSample> &onCurves, int count, double scale, Random &random)
+    {
+        _scale = scale;
+        PointBuckets buckets(_base, static_cast<std::size_t>(count) + onCurves.size() + _features.corner.size());
+        _keeper.clear();
+        _queue.clear();
+        std::vector<SurfacePoint> found;
+        for (const int v : _features.corner)
+            Keep(buckets, _surface.position[v], Point(0, 0, 0), true, _scale * _density.spacing[v]);
+        for (const CurveSample &c : onCurves) {
+            const FeatureCurve &curve = _features.curve[c.curve];
+            const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
+            const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
+            const Point p = a + (b - a) * curve.Fraction(k, c.s);
+            Keep(buckets, p, Point(0, 0, 0), true, _scale * _density.spacing[curve.vertex[k]]);
+        }
+        for (const CurveSample &c : onCurves)
+            ProposeFromCurve(buckets, c, found);
+        std::size_t next = 0;
+        const auto drain = [&] {
+            for (; next < _queue.size(); ++next)
+                ProposeAround(buckets, next, found);
+        };
+        drain();
+        // Where the front has not come: other components, and pockets behind narrow places.
+        for (const SurfacePoint &p : SampleFaces(_surface, _density, count, random)) {
+            Take(buckets, p, Any(p.face), found);
+            drain();
+        }
+        return found;
+    }
+
+    // Arc lengths grow along a curve, so the segment is found by bisection.
+    static int HintSegment(const FeatureCurve &c, double s)
+    {
+        const auto at = std::upper_bound(c.arc.begin(), c.arc.end(), s);
+        return static_cast<int>(at - c.arc.begin()) - 1;
+    }
+
+    void Keep(PointBuckets &buckets, const Point &p, const Point &normal, bool onFeature, double spacing)
+    {
+        buckets.Add(p, spacing);
+        _keeper.push_back({normal, onFeature});
+    }
+
+    // Some direction in the plane of a face.
+    Point Any(int face) const { return Corner(face, 1) - Corner(face, 0); }
+
+    bool Take(PointBuckets &buckets, const SurfacePoint &at, const Point &direction, std::vector<SurfacePoint> &found)
+    {
+        const Point p = _surface.At(at), normal = Normalized(_surface.AreaVector(at.face));
+        const double h = Spacing(at);
+        if (!Free(buckets, p, normal, 0.7 * h, h))
+            return false;
+        Keep(buckets, p, normal, false, h);
+        _queue.push_back({at, p, direction});
+        found.push_back(at);
+        return true;
+    }
+
+    void ProposeAround(PointBuckets &buckets, std::size_t index, std::vector<SurfacePoint> &found)
+    {
+        const Sample s = _queue[index];
+        const Point normal = Normalized(_surface.AreaVector(s.at.face));
+        const Point along = Normalized(s.direction), across = Cross(normal, along);
+        if (!(SquaredNorm(along) > 0) || !(SquaredNorm(across) > 0))
+            return;
+        constexpr double half = 0.5, root = 0.8660254037844386;
+        const double turn[6][2] = {{1, 0}, {half, root}, {half, -root}, {-half, root}, {-half, -root}, {-1, 0}};
+        const double h = Spacing(s.at);
+        for (const auto &t : turn)
+            Propose(buckets, s.at, s.point, along * t[0] + across * t[1], h, found);
+    }
+
+    // Into both faces, where the apices of equilateral triangles on the curve would lie.
+    void ProposeFromCurve(PointBuckets &buckets, const CurveSample &c, std::vector<SurfacePoint> &found)
+    {
+        const FeatureCurve &curve = _features.curve[c.curve];
+        const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
+        const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
+        const double fraction = curve.Fraction(k, c.s);
+        const Point p = a + (b - a) * fraction, along = Normalized(b - a);
+        const double h = _scale * ((1 - fraction) * _density.spacing[curve.vertex[k]] +
+                                   fraction * _density.spacing[curve.vertex[k + 1]]);
+        for (const Side side : {curve.side[k], _surface.mesh.Mate(curve.side[k])}) {
+            if (side == NoSide)
+                continue;
+            const int face = SideTriangle(side);
+            const Triangle &T = _surface.mesh.triangle[face];
+            SurfacePoint at;
+            at.face = face;
+            for (int i = 0; i < 3; ++i)
+                at.weight[i] = T.v[i] == curve.vertex[k] ? 1 - fraction : T.v[i] == curve.vertex[k + 1] ? fraction : 0;
+            const Point apex = Corner(face, SideEdge(side)) - p;
+            const Point inward = Normalized(apex - along * Dot(apex, along));
+            for (const double s : {0.5, -0.5})
+                Propose(buckets, at, p, along * s + inward * 0.8660254037844386, h, found);
+        }
+    }
+
+    void Propose(PointBuckets &buckets, const SurfacePoint &from, const Point &start, const Point &direction,
+                 double length, std::vector<SurfacePoint> &found)
+    {
+        // Most proposals are taken already: a look at where the line would end on a flat surface saves it.
+        const Point end = start + direction * length;
+        bool taken = false;
+        buckets.Near(end, 0.3 * length, length, [&](int i, double) {
+            taken = !_keeper[i].onFeature && Compatible(_keeper[i], Normalized(_surface.AreaVector(from.face)));
+            return !taken;
+        });
+        if (taken)
+            return;
+        SurfacePoint at = from;
+        Point x = start, d = direction;
+        if (Trace(at, x, d, length))
+            Take(buckets, at, d, found);
+    }
+
+    // Follows a straight line over the unfolded faces. False when it meets a feature or gets nowhere.
+    bool Trace(SurfacePoint &at, Point &x, Point &direction, double length) const
+    {
+        Side entry = NoSide;
+        for (int step = 0; step < 1000; ++step) {
+            const Triangle &T = _surface.mesh.triangle[at.face];
+            const Point &p0 = _surface.position[T.v[0]];
+            const Point e1 = _surface.position[T.v[1]] - p0, e2 = _surface.position[T.v[2]] - p0, n = Cross(e1, e2);
+            const double nn = SquaredNorm(n);
+            if (!(nn > 0))
+                return false;
+            const Point r = x - p0;
+            double w[3], rate[3];
+            w[1] = Dot(Cross(r, e2), n) / nn;
+            w[2] = Dot(Cross(e1, r), n) / nn;
+            w[0] = 1 - w[1] - w[2];
+            rate[1] = Dot(Cross(direction, e2), n) / nn;
+            rate[2] = Dot(Cross(e1, direction), n) / nn;
+            rate[0] = -rate[1] - rate[2];
+            int exit = -1;
+            double way = length;
+            for (int i = 0; i < 3; ++i)
+                if (rate[i] < 0 && (entry == NoSide || SideEdge(entry) != i)) {
+                    const double t = std::max(w[i], 0.0) / -rate[i];
+                    if (t < way) {
+                        way = t;
+                        exit = i;
+                    }
+                }
+            x += direction * way;
+            length -= way;
+            if (exit < 0) {
+                double sum = 0;
+                for (int i = 0; i < 3; ++i)
+                    sum += at.weight[i] = std::max(w[i] + rate[i] * way, 0.0);
+                for (double &weight : at.weight)
+                    weight /= sum;
+                return sum > 0;
+            }
+            const Side mate = T.n[exit];
+            if (mate == NoSide || T.Constrained(exit))
+                return false;
+            // Turn the direction around the edge into the next face.
+            const Point &tail = _surface.position[T.v[Next(exit)]];
+            const Point edge = Normalized(_surface.position[T.v[Prev(exit)]] - tail);
+            const double along = Dot(direction, edge);
+            const double across = std::sqrt(std::max(SquaredNorm(direction) - along * along, 0.0));
+            const Point apex = _surface.position[_surface.mesh.Opposite(mate)] - tail;
+            const Point inward = Normalized(apex - edge * Dot(apex, edge));
+            direction = edge * along + inward * across;
+            at.face = SideTriangle(mate);
+            entry = mate;
+        }
+        return false;
+    }
+
+    // Takes away the samples with the nearest neighbours.
+    void Thin(std::vector<SurfacePoint> &samples, int count)
+    {
+        _scale = _bestScale;
+        PointBuckets buckets(_base, samples.size());
+        for (const SurfacePoint &s : samples)
+            buckets.Add(_surface.At(s), Spacing(s));
+        std::vector<std::pair<double, int>> order;
+        std::vector<int> nearest(samples.size(), -1);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const double h = Spacing(samples[i]);
+            double closest = 2 * h * h;
+            buckets.Near(_surface.At(samples[i]), 1.4 * h, h, [&](int k, double d) {
+                if (k != static_cast<int>(i) && d < closest) {
+                    closest = d;
+                    nearest[i] = k;
+                }
+                return true;
+            });
+            order.emplace_back(closest / (h * h), static_cast<int>(i));
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<char> gone(samples.size(), 0);
+        int left = static_cast<int>(samples.size());
+        for (int pass = 0; pass < 2; ++pass)
+            for (const auto &[d, i] : order)
+                if (left > count && !gone[i] && (pass == 1 || nearest[i] < 0 || !gone[nearest[i]])) {
+                    gone[i] = 1;
+                    --left;
+                }
+        std::vector<SurfacePoint> kept;
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (!gone[i])
+                kept.push_back(samples[i]);
+        samples.swap(kept);
+    }
+
+    // Adds random points, the wider gaps first.
+    void Fill(std::vector<SurfacePoint> &samples, const std::vector<CurveSample> &onCurves, int count, Random &random)
+    {
+        _scale = _bestScale;
+        PointBuckets buckets(_base, static_cast<std::size_t>(count) + onCurves.size());
+        _keeper.clear();
+        for (const CurveSample &c : onCurves) {
+            const FeatureCurve &curve = _features.curve[c.curve];
+            const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
+            const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
+            Keep(buckets, a + (b - a) * curve.Fraction(k, c.s), Point(0, 0, 0), true,
+                 _scale * _density.spacing[curve.vertex[k]]);
+        }
+        for (const SurfacePoint &s : samples)
+            Keep(buckets, _surface.At(s), Normalized(_surface.AreaVector(s.face)), false, Spacing(s));
+        for (double radius = 0.68; static_cast<int>(samples.size()) < count; radius *= 0.93) {
+            const int darts = std::max(64, radius > 0.05 ? 2 * count : 0);
+            for (const SurfacePoint &p : SampleFaces(_surface, _density, darts, random)) {
+                if (static_cast<int>(samples.size()) == count)
+                    return;
+                const Point x = _surface.At(p), normal = Normalized(_surface.AreaVector(p.face));
+                const double h = Spacing(p);
+                if (radius < 0.05 || Free(buckets, x, normal, radius * h, h)) {
+                    Keep(buckets, x, normal, false, h);
+                    samples.push_back(p);
+                }
+            }
+        }
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
