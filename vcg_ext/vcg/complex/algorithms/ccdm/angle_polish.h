@@ -35,7 +35,7 @@ public:
     void Run(int rounds)
     {
         double size = 0.1;
-        for (int round = 0; round < rounds; ++round, size *= 0.75) {
+        for (int round = 0; round < rounds; ++round, size *= 0.8) {
             Flip();
             for (int v = 0; v < _remesh.VertexCount(); ++v)
                 if (_remesh.place[v].kind != VertexKind::Corner)

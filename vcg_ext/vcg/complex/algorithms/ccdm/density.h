@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/reference_surface.h>
@@ -108,6 +111,43 @@ struct DensityField {
     std::vector<double> spacing; ///< wanted edge length h = sqrt(2 / (sqrt(3) n phi_hat))
     bool uniform = true;
 };
+
+/// Raises phi where the spacing h that follows from it would grow faster than `gradation` times the way
+/// along the edges of the surface: neighbouring triangles of well graded meshes differ by little.
+inline void LimitGradation(const ReferenceSurface &surface, int vertices, double gradation, std::vector<double> &phi)
+{
+    const Triangulation &m = surface.mesh;
+    double integral = 0;
+    for (int t = 0; t < surface.FaceCount(); ++t) {
+        const Triangle &T = m.triangle[t];
+        integral += Norm(surface.AreaVector(t)) * (phi[T.v[0]] + phi[T.v[1]] + phi[T.v[2]]) / 3;
+    }
+    const double scale = 2 * integral / (std::sqrt(3.0) * vertices);
+    using Entry = std::pair<double, int>; // spacing, vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    std::vector<double> spacing(phi.size());
+    for (std::size_t v = 0; v < phi.size(); ++v) {
+        spacing[v] = std::sqrt(scale / phi[v]);
+        if (m.incident[v] >= 0)
+            queue.emplace(spacing[v], static_cast<int>(v));
+    }
+    while (!queue.empty()) {
+        const auto [h, v] = queue.top();
+        queue.pop();
+        if (h > spacing[v])
+            continue;
+        const int from = v;
+        m.VisitSpokes(from, [&](int o, Side) {
+            const double most = spacing[from] + gradation * Norm(surface.position[o] - surface.position[from]);
+            if (most < spacing[o]) {
+                spacing[o] = most;
+                phi[o] = scale / (most * most);
+                queue.emplace(most, o);
+            }
+            return true;
+        });
+    }
+}
 
 /// h is the edge length of the equilateral triangulation with phi_hat n vertices per unit of area,
 /// phi_hat being phi scaled to integrate to 1.

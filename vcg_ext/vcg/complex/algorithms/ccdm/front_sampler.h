@@ -133,10 +133,10 @@ public:
     }
 
 private:
-    // What keeps others away: a sample's face normal, or none for samples on features.
+    // What keeps others away: a sample with its face and normal; without a face, one on a feature.
     struct Keeper {
         Point normal;
-        bool onFeature;
+        int face;
     };
     struct Sample {
         SurfacePoint at;
@@ -151,6 +151,7 @@ private:
     double _scale = 1;
     std::vector<Keeper> _keeper;
     std::vector<Sample> _queue;
+    std::vector<int> _visited; // scratch of Joined
 
     double Spacing(const SurfacePoint &p) const
     {
@@ -161,16 +162,39 @@ private:
     bool Compatible(const Keeper &k, const Point &normal) const
     {
         const double cosine = Dot(k.normal, normal);
-        return k.onFeature || (_orientable ? cosine : std::abs(cosine)) > 0.2;
+        return k.face < 0 || (_orientable ? cosine : std::abs(cosine)) > 0.2;
     }
-    bool Free(const PointBuckets &buckets, const Point &p, const Point &normal, double radius, double spacing) const
+    bool Free(const PointBuckets &buckets, const Point &p, int face, const Point &normal, double radius, double spacing)
     {
         bool free = true;
         buckets.Near(p, radius, spacing, [&](int i, double) {
-            free = !Compatible(_keeper[i], normal);
+            free = !Compatible(_keeper[i], normal) && !Joined(face, _keeper[i].face, p, radius);
             return free;
         });
         return free;
+    }
+
+    // Whether two faces whose normals differ are on one sheet all the same, as in a crumpled spot: joined
+    // by faces that come within `radius` of p, without crossing a feature.
+    bool Joined(int from, int to, const Point &p, double radius)
+    {
+        constexpr std::size_t most = 128;
+        _visited.assign(1, from);
+        for (std::size_t k = 0; k < _visited.size() && _visited.size() < most; ++k) {
+            if (_visited[k] == to)
+                return true;
+            const Triangle &T = _surface.mesh.triangle[_visited[k]];
+            for (int e = 0; e < 3; ++e) {
+                if (T.n[e] == NoSide || T.Constrained(e))
+                    continue;
+                const Point &tail = _surface.position[T.v[Next(e)]];
+                const int next = SideTriangle(T.n[e]);
+                if (SegmentSquaredDistance(p, tail, _surface.position[T.v[Prev(e)]] - tail) < radius * radius &&
+                    std::find(_visited.begin(), _visited.end(), next) == _visited.end())
+                    _visited.push_back(next);
+            }
+        }
+        return false;
     }
 
     std::vector<SurfacePoint> Advance(const std::vector<CurveSample> &onCurves, int count, double scale, Random &random)
@@ -181,13 +205,13 @@ private:
         _queue.clear();
         std::vector<SurfacePoint> found;
         for (const int v : _features.corner)
-            Keep(buckets, _surface.position[v], Point(0, 0, 0), true, _scale * _density.spacing[v]);
+            Keep(buckets, _surface.position[v], Point(0, 0, 0), -1, _scale * _density.spacing[v]);
         for (const CurveSample &c : onCurves) {
             const FeatureCurve &curve = _features.curve[c.curve];
             const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
             const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
             const Point p = a + (b - a) * curve.Fraction(k, c.s);
-            Keep(buckets, p, Point(0, 0, 0), true, _scale * _density.spacing[curve.vertex[k]]);
+            Keep(buckets, p, Point(0, 0, 0), -1, _scale * _density.spacing[curve.vertex[k]]);
         }
         for (const CurveSample &c : onCurves)
             ProposeFromCurve(buckets, c, found);
@@ -212,10 +236,10 @@ private:
         return static_cast<int>(at - c.arc.begin()) - 1;
     }
 
-    void Keep(PointBuckets &buckets, const Point &p, const Point &normal, bool onFeature, double spacing)
+    void Keep(PointBuckets &buckets, const Point &p, const Point &normal, int face, double spacing)
     {
         buckets.Add(p, spacing);
-        _keeper.push_back({normal, onFeature});
+        _keeper.push_back({normal, face});
     }
 
     // Some direction in the plane of a face.
@@ -225,9 +249,9 @@ private:
     {
         const Point p = _surface.At(at), normal = Normalized(_surface.AreaVector(at.face));
         const double h = Spacing(at);
-        if (!Free(buckets, p, normal, 0.7 * h, h))
+        if (!Free(buckets, p, at.face, normal, 0.7 * h, h))
             return false;
-        Keep(buckets, p, normal, false, h);
+        Keep(buckets, p, normal, at.face, h);
         _queue.push_back({at, p, direction});
         found.push_back(at);
         return true;
@@ -280,7 +304,7 @@ private:
         const Point end = start + direction * length;
         bool taken = false;
         buckets.Near(end, 0.3 * length, length, [&](int i, double) {
-            taken = !_keeper[i].onFeature && Compatible(_keeper[i], Normalized(_surface.AreaVector(from.face)));
+            taken = _keeper[i].face >= 0 && Compatible(_keeper[i], Normalized(_surface.AreaVector(from.face)));
             return !taken;
         });
         if (taken)
@@ -394,11 +418,11 @@ private:
             const FeatureCurve &curve = _features.curve[c.curve];
             const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
             const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
-            Keep(buckets, a + (b - a) * curve.Fraction(k, c.s), Point(0, 0, 0), true,
+            Keep(buckets, a + (b - a) * curve.Fraction(k, c.s), Point(0, 0, 0), -1,
                  _scale * _density.spacing[curve.vertex[k]]);
         }
         for (const SurfacePoint &s : samples)
-            Keep(buckets, _surface.At(s), Normalized(_surface.AreaVector(s.face)), false, Spacing(s));
+            Keep(buckets, _surface.At(s), Normalized(_surface.AreaVector(s.face)), s.face, Spacing(s));
         for (double radius = 0.68; static_cast<int>(samples.size()) < count; radius *= 0.93) {
             const int darts = std::max(64, radius > 0.05 ? 2 * count : 0);
             for (const SurfacePoint &p : SampleFaces(_surface, _density, darts, random)) {
@@ -406,8 +430,8 @@ private:
                     return;
                 const Point x = _surface.At(p), normal = Normalized(_surface.AreaVector(p.face));
                 const double h = Spacing(p);
-                if (radius < 0.05 || Free(buckets, x, normal, radius * h, h)) {
-                    Keep(buckets, x, normal, false, h);
+                if (radius < 0.05 || Free(buckets, x, p.face, normal, radius * h, h)) {
+                    Keep(buckets, x, normal, p.face, h);
                     samples.push_back(p);
                 }
             }

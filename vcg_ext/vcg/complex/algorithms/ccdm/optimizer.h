@@ -48,6 +48,7 @@ public:
         polish.Unfold(10);
         polish.Approach(5, 30, 5);
         polish.RaiseAngles(MinAngle(_params), 0.1, 20);
+        polish.RaiseAngles(MinAngle(_params), 0.2, 20);
         polish.RaiseAngles(30, 0.3, 20);
         polish.RaiseAngles(30, 1.0, 20);
     }
@@ -168,7 +169,7 @@ private:
     }
 
     static constexpr int ClosingRelocations = 6;
-    static constexpr int PolishRounds = 10;
+    static constexpr int PolishRounds = 14;
 };
 
 } // namespace ccdm

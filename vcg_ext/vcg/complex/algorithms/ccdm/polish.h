@@ -65,10 +65,23 @@ public:
             bool improved = false;
             for (const Side s : folded)
                 if (TurnCosine(s) < FoldCosine) {
-                    const int around[4] = {_remesh.mesh.Opposite(s), _remesh.mesh.Opposite(_remesh.mesh.Mate(s)),
-                                           _remesh.mesh.Tail(s), _remesh.mesh.Head(s)};
+                    const Side mate = _remesh.mesh.Mate(s);
+                    const int around[4] = {_remesh.mesh.Opposite(s), _remesh.mesh.Opposite(mate), _remesh.mesh.Tail(s),
+                                           _remesh.mesh.Head(s)};
+                    bool opened = false;
+                    for (int e = 0; e < 3 && !opened; ++e)
+                        opened = FlipOpens(MakeSide(SideTriangle(s), e)) || FlipOpens(MakeSide(SideTriangle(mate), e));
                     for (const int v : around)
-                        improved = Open(v) || improved;
+                        opened = Open(v) || opened;
+                    // Stuck: the vertices further out may make room.
+                    if (!opened)
+                        for (const int v : around) {
+                            _remesh.mesh.GatherStar(v, _star);
+                            const std::vector<int> outer = _star.outer;
+                            for (const int o : outer)
+                                opened = Open(o) || opened;
+                        }
+                    improved = improved || opened;
                 }
             if (!improved)
                 break;
@@ -150,7 +163,58 @@ private:
         for (int e = 0; e < 3 && !improved; ++e)
             if (T.n[e] != NoSide)
                 improved = Shift(_remesh.mesh.Opposite(T.n[e]));
+        for (int i = 0; i < 3 && !improved; ++i) {
+            _remesh.mesh.GatherStar(T.v[i], _star);
+            const std::vector<Side> around = _star.corner;
+            for (std::size_t k = 0; k < around.size() && !improved; ++k)
+                improved = FlipAndShift(MakeSide(SideTriangle(around[k]), Next(SideEdge(around[k]))));
+        }
         return improved;
+    }
+
+    double LargestCosineAround(const int (&vertex)[4])
+    {
+        double worst = -1;
+        for (const int v : vertex)
+            _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+                worst = std::max(worst, LargestCosine(SideTriangle(s)));
+                return true;
+            });
+        return worst;
+    }
+
+    // A flip that does not help by itself, but does once its four vertices have moved.
+    bool FlipAndShift(Side s)
+    {
+        const Side mate = _remesh.mesh.Mate(s);
+        if (mate == NoSide)
+            return false;
+        const Hinge h(_remesh, s);
+        if (!MayFlip(_remesh, s, h))
+            return false;
+        const int vertex[4] = {h.apexA, h.apexB, _remesh.mesh.Tail(s), _remesh.mesh.Head(s)};
+        Point position[4];
+        Place place[4];
+        double rho[4];
+        for (int i = 0; i < 4; ++i) {
+            position[i] = _remesh.position[vertex[i]];
+            place[i] = _remesh.place[vertex[i]];
+            rho[i] = _remesh.rho[vertex[i]];
+        }
+        const double before = LargestCosineAround(vertex);
+        const double far =
+            std::max(SquaredDistanceNear(_model, _remesh, vertex[2], (h.p + h.q) / 2), _stray * SquaredNorm(h.a - h.b));
+        if (SquaredDistanceNear(_model, _remesh, h.apexA, (h.a + h.b) / 2) > far)
+            return false;
+        const Side flipped = _remesh.mesh.Flip(s);
+        for (const int v : vertex)
+            Shift(v);
+        if (LargestCosineAround(vertex) < before - 1e-6)
+            return true;
+        for (int i = 0; i < 4; ++i)
+            SetVertex(vertex[i], position[i], place[i], rho[i]);
+        _remesh.mesh.Flip(flipped);
+        return false;
     }
 
     bool FlipHelps(Side s)
@@ -185,6 +249,30 @@ private:
             return 1;
         return TurnCosine(_remesh.position[m.Tail(s)], _remesh.position[m.Head(s)], _remesh.position[m.Opposite(s)],
                           _remesh.position[m.Opposite(m.Mate(s))]);
+    }
+
+    double SharpestTurnCosine(int t, int u) const
+    {
+        double worst = 1;
+        for (int e = 0; e < 3; ++e)
+            worst = std::min({worst, TurnCosine(MakeSide(t, e)), TurnCosine(MakeSide(u, e))});
+        return worst;
+    }
+
+    // Flips an edge if the sharpest turn at its two triangles gets less by that.
+    bool FlipOpens(Side s)
+    {
+        Triangulation &m = _remesh.mesh;
+        const Side mate = m.Mate(s);
+        if (mate == NoSide || m.Constrained(s) || m.FindEdge(m.Opposite(s), m.Opposite(mate)) != NoSide)
+            return false;
+        const int t = SideTriangle(s), u = SideTriangle(mate);
+        const double before = SharpestTurnCosine(t, u);
+        const Side flipped = m.Flip(s);
+        if (SharpestTurnCosine(t, u) > before + 1e-3)
+            return true;
+        m.Flip(flipped);
+        return false;
     }
 
     // Pattern search for the position of v at which the sharpest turn in and around its star is least.

@@ -167,6 +167,8 @@ private:
             break;
         case DensityKind::Curvature:
             phi = CurvatureDensity(surface);
+            if (_params.optimizer == OptimizerKind::Accelerated)
+                LimitGradation(surface, _params.vertexCount, MostGradation, phi);
             break;
         case DensityKind::Quality:
             if (input.field.empty())
@@ -287,6 +289,9 @@ private:
 
     /// A curve that turns by more than this within one spacing has a corner there, in degrees.
     static constexpr double CornerAngle = 50;
+    // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the
+    // curvature more closely.
+    static constexpr double MostGradation = 0.1;
 };
 
 } // namespace ccdm
