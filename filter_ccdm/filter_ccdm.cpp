@@ -26,7 +26,8 @@ QString Tip(const char *text)
 Params ReadParameters(const RichParameterList &list)
 {
     const auto real = [&](const char *name, double low, double high) {
-        const double x = static_cast<double>(list.getFloat(name));
+        // The host keeps single precision; what was typed is the short decimal.
+        const double x = QString::number(static_cast<double>(list.getFloat(name))).toDouble();
         if (!(x >= low && x <= high))
             throw Failure(
                 QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());

@@ -14,4 +14,4 @@ for program in meshlab meshlabserver; do
 done
 ln -s "$installed"/*.so* "$dir/lib/$multiarch/meshlab/"
 ln -s "$installed"/plugins/*.so "$dir/lib/$multiarch/meshlab/plugins/"
-cp "$plugin" "$dir/lib/$multiarch/meshlab/plugins/"
+ln -s "$(realpath "$plugin")" "$dir/lib/$multiarch/meshlab/plugins/"

@@ -46,7 +46,7 @@ def test_report_has_every_key(remesh, samples, tmp_path):
     assert data["result"]["vertices"] == 800 and data["result"]["genus"] == 2 and data["result"]["euler"] == -2
     assert data["topology_preserved"] is True
     assert len(data["energy"]) == 4 and 0 <= data["accepted"] <= 3
-    assert data["parameters"]["seed"] == 7 and data["parameters"]["density_exponent"] == 0.2
+    assert data["parameters"]["seed"] == 7 and data["parameters"]["density_exponent"] == 2
     assert data["seconds"]["total"] > 0 and data["seconds"]["optimising"] > 0
     assert 0 < data["result"]["hausdorff"] < 0.02
 
@@ -81,8 +81,11 @@ def test_options_change_the_result(remesh, samples, tmp_path):
     for extra in (("--lambda", "0.05"), ("--local-iterations", "1"), ("--density", "curvature"),
                   ("--density", "curvature", "--density-exponent", "1")):
         seen.add(result(*extra))
-    assert len(seen) == 5
-    assert result("--optimizer", "annealing", "--sampler", "random", "--density", "uniform") in seen
+    for extra in (("--sampler", "random"), ("--optimizer", "annealing"),
+                  ("--optimizer", "annealing", "--sampler", "random")):
+        seen.add(result(*extra))
+    assert len(seen) == 8
+    assert result("--optimizer", "accelerated", "--sampler", "front", "--density", "uniform") in seen
 
 
 def test_density_from_vertex_quality(remesh, tmp_path):

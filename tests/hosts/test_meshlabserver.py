@@ -17,7 +17,8 @@ MESHES = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
 FILTER = "Remeshing: Isotropic CCDM (constrained centroidal Delaunay mesh)"
 # The order in which the filter declares its parameters: meshlabserver wants all of them, in it.
 DECLARED = [("vertex_count", "RichInt"), ("feature_angle", "RichFloat"), ("lambda", "RichFloat"),
-            ("global_iterations", "RichInt"), ("local_iterations", "RichInt"), ("density", "RichEnum"), ("optimizer", "RichEnum"), ("min_angle", "RichFloat"),
+            ("global_iterations", "RichInt"), ("local_iterations", "RichInt"), ("density", "RichEnum"),
+            ("optimizer", "RichEnum"), ("min_angle", "RichFloat"),
             ("selected_edges", "RichBool"), ("seed", "RichInt"), ("new_layer", "RichBool")]
 
 

@@ -94,13 +94,32 @@ struct CellCentroid {
     }
 };
 
+/// For vertices of feature curves: half way between the centroid of the star and, where the density is
+/// uniform, the middle of the two neighbours on the curve, which spreads the error of the chords evenly.
+struct CurveCentroid {
+    PatchCentroid patch;
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        Point sum(0, 0, 0);
+        int neighbours = 0;
+        for (std::size_t k = 0; k < star.spoke.size(); ++k)
+            if (k >= star.sectorStart.size() || star.sectorStart[k] != 0) {
+                sum += star.spoke[k];
+                ++neighbours;
+            }
+        const Point centroid = patch(star, v);
+        return patch.uniform && neighbours == 2 ? Point(centroid * 0.5 + sum * 0.25) : centroid;
+    }
+};
+
 /// Momentum on a relocation rule (Polyak's heavy ball): the step is weight times the rule's displacement
-/// plus momentum times the vertex's last step. Vertices of curves, where that would overshoot, go to the
-/// centroid of their star.
+/// plus momentum times the vertex's last step. Vertices of curves, where that would overshoot, have a rule
+/// of their own.
 template <class Rule>
 struct HeavyBall {
     Rule rule;
-    PatchCentroid onCurves;
+    CurveCentroid onCurves;
     double weight, momentum;
     const std::vector<Point> &position;
     std::vector<Point> &last; ///< positions before the last step

@@ -139,7 +139,8 @@ private:
         const bool uniform = _model.density.uniform;
         const int count = _params.globalIterations * _params.localIterations;
         std::vector<Point> last = _remesh.position;
-        const HeavyBall<CellCentroid> pull = {{_remesh, uniform}, {_remesh, uniform}, 1.5, 0.6, _remesh.position, last};
+        const HeavyBall<CellCentroid> pull = {
+            {_remesh, uniform}, {{_remesh, uniform}}, 1.5, 0.6, _remesh.position, last};
         Flip();
         _report.energy.assign(1, Energy(_remesh));
         for (int i = 0; i < count; ++i) {

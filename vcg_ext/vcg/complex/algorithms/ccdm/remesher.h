@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
 #include <vcg/complex/algorithms/ccdm/input_mesh.h>
@@ -65,22 +66,44 @@ private:
             return false;
 
         Remesh remesh;
-        if (!Attempt(model, _params, remesh)) {
-            // At a handful of vertices on a curved surface the momentum can fold what annealing does not.
-            if (_report.status != Status::CheckFailed || _params.optimizer == OptimizerKind::Annealing)
-                return false;
-            _report.warnings.push_back("annealed with random samples, as another attempt failed: " + _report.message);
-            _report.message.clear();
-            Params careful = _params;
-            careful.optimizer = OptimizerKind::Annealing;
-            careful.sampler = SamplerKind::Random;
-            remesh = Remesh();
-            if (!Attempt(model, careful, remesh))
-                return false;
-        }
+        if (!AttemptAll(model, remesh))
+            return false;
         WriteBack(prepared, remesh, output);
         Finish();
         return true;
+    }
+
+    // At a handful of vertices on a curved surface the momentum can fold what annealing does not, and no
+    // placement at all may be free of folds (eight vertices on a round torus): then a few more are taken.
+    bool AttemptAll(Model &model, Remesh &remesh)
+    {
+        Params params = _params;
+        for (;;) {
+            if (Attempt(model, params, remesh)) {
+                CountExtra(model, remesh, params.vertexCount);
+                return true;
+            }
+            if (_report.status != Status::CheckFailed)
+                return false;
+            const int got = remesh.VertexCount();
+            remesh = Remesh();
+            if (params.optimizer != OptimizerKind::Annealing) {
+                _report.warnings.push_back("annealed with random samples, as another attempt failed: " +
+                                           _report.message);
+                params.optimizer = OptimizerKind::Annealing;
+                params.sampler = SamplerKind::Random;
+            } else if (got < MostForGrowth) {
+                const double before = params.vertexCount;
+                params.vertexCount = got + got / 2;
+                for (double &h : model.density.spacing)
+                    h *= std::sqrt(before / params.vertexCount);
+                _report.warnings.push_back("more vertices were taken, as an attempt with " + std::to_string(got) +
+                                           " failed: " + _report.message);
+            } else {
+                return false;
+            }
+            _report.message.clear();
+        }
     }
 
     // Samples, builds, optimises and checks. False when it was cancelled or the check failed.
@@ -94,7 +117,6 @@ private:
             return false;
         if (!InitialMeshBuilder(model, samples).Build(remesh, [this](double x) { return Advance(x); }))
             return false;
-        CountExtra(model, remesh);
 
         if (!Begin("optimising", 20, 92))
             return false;
@@ -183,10 +205,11 @@ private:
         }
         model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
                                          DensityExponent(_params), _params.vertexCount);
+        const int dropped = FalseCreases(surface, model.density.spacing, marked, _params.featureAngle).Drop();
         model.features = FeatureTracer(surface, model.density.spacing, marked, CornerAngle).Trace();
         _report.featureCurves = static_cast<int>(model.features.curve.size());
         _report.featureCorners = static_cast<int>(model.features.corner.size());
-        _report.prunedFragments = model.features.pruned;
+        _report.prunedFragments = dropped + model.features.pruned;
         return true;
     }
 
@@ -196,7 +219,7 @@ private:
         Random random(_params.seed);
         samples.onCurves = SampleCurves(model.surface, model.features, model.density);
         const int featureSamples = static_cast<int>(samples.onCurves.size() + model.features.corner.size());
-        const int rest = std::max(0, _params.vertexCount - featureSamples);
+        const int rest = std::max(0, params.vertexCount - featureSamples);
         switch (params.sampler) {
         case SamplerKind::Random:
             samples.onFaces = SampleFaces(model.surface, model.density, rest, random);
@@ -210,10 +233,10 @@ private:
         return samples;
     }
 
-    void CountExtra(const Model &model, const Remesh &remesh)
+    void CountExtra(const Model &model, const Remesh &remesh, int aimedAt)
     {
         _report.extraVertices = std::max(0, remesh.VertexCount() - _params.vertexCount);
-        if (_report.extraVertices == 0)
+        if (remesh.VertexCount() <= aimedAt)
             return;
         int onFeatures = 0;
         for (const Place &p : remesh.place)
@@ -268,8 +291,16 @@ private:
 
     void EndPhase()
     {
-        if (*_phase != 0)
-            _report.seconds.emplace_back(_phase, std::chrono::duration<double>(Clock::now() - _phaseStart).count());
+        if (*_phase == 0)
+            return;
+        const double seconds = std::chrono::duration<double>(Clock::now() - _phaseStart).count();
+        // A phase that another attempt has run counts once.
+        for (auto &entry : _report.seconds)
+            if (entry.first == _phase) {
+                entry.second += seconds;
+                return;
+            }
+        _report.seconds.emplace_back(_phase, seconds);
     }
 
     bool Advance(double share)
@@ -289,6 +320,8 @@ private:
 
     /// A curve that turns by more than this within one spacing has a corner there, in degrees.
     static constexpr double CornerAngle = 50;
+    /// Counts below this may be raised where fewer vertices cannot but fold.
+    static constexpr int MostForGrowth = 200;
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the
     // curvature more closely.
     static constexpr double MostGradation = 0.1;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_FALSE_CREASES_H
+#define VCG_CCDM_FALSE_CREASES_H
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/feature_graph.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if the
+/// surface turns there at the scale of the wanted mesh too, and only in company: as part of a connected set
+/// of such edges that is several spacings long. Boundaries and marked edges always stay.
+class FalseCreases
+{
+public:
+    FalseCreases(ReferenceSurface &surface, const std::vector<double> &spacing, const SideMarks &marked, double degrees)
+        : _surface(surface), _mesh(surface.mesh), _spacing(spacing), _marked(marked), _turn(Share * degrees * Pi / 180),
+          _normal(FaceNormals(surface)), _stamp(surface.FaceCount(), -1)
+    {
+    }
+
+    /// Takes the marks off false creases; returns the number of connected sets that were dropped for being
+    /// short.
+    int Drop()
+    {
+        std::vector<Side> crease;
+        for (int t = 0; t < _mesh.TriangleCount(); ++t)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(t, e);
+                if (_mesh.Constrained(s) && _mesh.Mate(s) > s && !Marked(s) && !Marked(_mesh.Mate(s)))
+                    crease.push_back(s);
+            }
+        std::vector<Side> kept;
+        for (std::size_t k = 0; k < crease.size(); ++k) {
+            if (TurnsAtLargeScale(crease[k], static_cast<int>(k)))
+                kept.push_back(crease[k]);
+            else
+                _mesh.SetConstrained(crease[k], false);
+        }
+        return DropShort(kept);
+    }
+
+private:
+    static constexpr double Share = 0.7;     // of the feature angle, that the mean normals have to differ by
+    static constexpr double Radius = 1.0;    // of the neighbourhood, in spacings
+    static constexpr double LeastLength = 4; // of a connected set, in spacings
+    static constexpr std::size_t MostFaces = 256;
+
+    ReferenceSurface &_surface;
+    Triangulation &_mesh;
+    const std::vector<double> &_spacing;
+    const SideMarks &_marked;
+    const double _turn;
+    const std::vector<Point> _normal;
+    std::vector<int> _stamp;
+    struct Seen {
+        int face;
+        double sign; // 1 or -1: whether its normal runs with that of the first face
+    };
+    std::vector<Seen> _seen;
+
+    bool Marked(Side s) const { return !_marked.empty() && ((_marked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0; }
+    Point Middle(Side s) const { return (_surface.position[_mesh.Tail(s)] + _surface.position[_mesh.Head(s)]) / 2; }
+
+    // The mean normals of the surface around the middle of the edge, on either side of it.
+    bool TurnsAtLargeScale(Side s, int tick)
+    {
+        const Point middle = Middle(s);
+        const double reach = Radius * _spacing[_mesh.Tail(s)], reach2 = reach * reach;
+        const int first = SideTriangle(s);
+        const Point edge = _surface.position[_mesh.Head(s)] - _surface.position[_mesh.Tail(s)];
+        const Point one = _normal[first];
+        const Point two = _normal[SideTriangle(_mesh.Mate(s))] * (_mesh.Coherent(s) ? 1.0 : -1.0);
+        // Across the edge, in the plane between the two faces.
+        Point across = Cross(edge, one + two);
+        const Point apex = _surface.position[_mesh.Opposite(s)] - middle;
+        if (Dot(across, apex) < 0)
+            across = -across;
+        Point mean[2] = {Point(0, 0, 0), Point(0, 0, 0)};
+        _seen.assign(1, {first, 1.0});
+        _stamp[first] = tick;
+        for (std::size_t k = 0; k < _seen.size(); ++k) {
+            const auto [face, sign] = _seen[k];
+            const Triangle &T = _mesh.triangle[face];
+            const Point centre =
+                (_surface.position[T.v[0]] + _surface.position[T.v[1]] + _surface.position[T.v[2]]) / 3 - middle;
+            // No face counts for more than the neighbourhood holds.
+            const double weight = std::min(Norm(_surface.AreaVector(face)), reach2);
+            mean[Dot(centre, across) > 0 ? 0 : 1] += _normal[face] * (sign * weight);
+            for (int e = 0; e < 3 && _seen.size() < MostFaces; ++e) {
+                const Side mate = T.n[e];
+                if (mate == NoSide || _stamp[SideTriangle(mate)] == tick)
+                    continue;
+                const Point &tail = _surface.position[T.v[Next(e)]];
+                if (SegmentSquaredDistance(middle, tail, _surface.position[T.v[Prev(e)]] - tail) > reach2)
+                    continue;
+                _stamp[SideTriangle(mate)] = tick;
+                _seen.push_back({SideTriangle(mate), _mesh.Coherent(MakeSide(face, e)) ? sign : -sign});
+            }
+        }
+        return std::atan2(Norm(Cross(mean[0], mean[1])), Dot(mean[0], mean[1])) > _turn;
+    }
+
+    int DropShort(const std::vector<Side> &crease)
+    {
+        // Union of the edges' ends; the length in spacings of each set.
+        std::vector<int> parent(_mesh.VertexCount());
+        for (std::size_t v = 0; v < parent.size(); ++v)
+            parent[v] = static_cast<int>(v);
+        const auto root = [&](int v) {
+            while (parent[v] != v)
+                v = parent[v] = parent[parent[v]];
+            return v;
+        };
+        for (const Side s : crease)
+            parent[root(_mesh.Tail(s))] = root(_mesh.Head(s));
+        std::vector<double> length(parent.size(), 0);
+        for (const Side s : crease)
+            length[root(_mesh.Tail(s))] +=
+                Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]) / _spacing[_mesh.Tail(s)];
+        std::vector<char> shortSet(parent.size(), 0);
+        int dropped = 0;
+        for (const Side s : crease) {
+            const int r = root(_mesh.Tail(s));
+            if (length[r] >= LeastLength)
+                continue;
+            dropped += shortSet[r] == 0;
+            shortSet[r] = 1;
+            _mesh.SetConstrained(s, false);
+        }
+        return dropped;
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
