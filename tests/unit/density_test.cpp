@@ -82,4 +82,31 @@ TEST(DensityField, SpacingFollowsDensity)
     }
 }
 
+TEST(LimitGradation, BoundsTheGrowthOfTheSpacing)
+{
+    const shapes::Shape s = shapes::FlatGrid(40);
+    const ReferenceSurface surface = Surface(s);
+    std::vector<double> phi;
+    for (const auto &p : s.points)
+        phi.push_back(std::hypot(p[0] - 0.5, p[1] - 0.5) < 0.05 ? 1e4 : 1.0);
+    std::vector<double> limited = phi;
+    LimitGradation(surface, 1000, 0.1, limited);
+    double integral = 0;
+    for (int t = 0; t < surface.FaceCount(); ++t) {
+        const Triangle &T = surface.mesh.triangle[t];
+        integral += Norm(surface.AreaVector(t)) * (phi[T.v[0]] + phi[T.v[1]] + phi[T.v[2]]) / 3;
+    }
+    const auto spacing = [&](int v) { return std::sqrt(2 * integral / (std::sqrt(3.0) * 1000 * limited[v])); };
+    double steepest = 0;
+    for (const Triangle &T : surface.mesh.triangle)
+        for (int k = 0; k < 3; ++k) {
+            const int a = T.v[k], b = T.v[Next(k)];
+            EXPECT_GE(limited[a], phi[a]);
+            steepest =
+                std::max(steepest, std::abs(spacing(a) - spacing(b)) / Norm(surface.position[a] - surface.position[b]));
+        }
+    EXPECT_LE(steepest, 0.1 + 1e-9);
+    EXPECT_GT(steepest, 0.09);
+}
+
 } // namespace

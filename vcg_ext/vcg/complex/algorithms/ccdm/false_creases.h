@@ -11,9 +11,10 @@
 namespace vcg {
 namespace ccdm {
 
-/// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if the
-/// surface turns there at the scale of the wanted mesh too, and only in company: as part of a connected set
-/// of such edges that is several spacings long. Boundaries and marked edges always stay.
+/// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if it
+/// stands out from the turns of the other edges around it, if the surface turns there at the scale of the
+/// wanted mesh too, and only in company: as part of a connected set of such edges that is several spacings
+/// long. Boundaries and marked edges always stay.
 class FalseCreases
 {
 public:
@@ -34,20 +35,25 @@ public:
                 if (_mesh.Constrained(s) && _mesh.Mate(s) > s && !Marked(s) && !Marked(_mesh.Mate(s)))
                     crease.push_back(s);
             }
+        const std::vector<double> rough = Roughness();
         std::vector<Side> kept;
         for (std::size_t k = 0; k < crease.size(); ++k) {
-            if (TurnsAtLargeScale(crease[k], static_cast<int>(k)))
-                kept.push_back(crease[k]);
+            const Side s = crease[k];
+            const double around = (rough[_mesh.Tail(s)] + rough[_mesh.Head(s)]) / 2;
+            if (Turn(s) > Prominence * around && TurnsAtLargeScale(s, static_cast<int>(k)))
+                kept.push_back(s);
             else
-                _mesh.SetConstrained(crease[k], false);
+                _mesh.SetConstrained(s, false);
         }
         return DropShort(kept);
     }
 
 private:
-    static constexpr double Share = 0.7;     // of the feature angle, that the mean normals have to differ by
-    static constexpr double Radius = 1.0;    // of the neighbourhood, in spacings
-    static constexpr double LeastLength = 4; // of a connected set, in spacings
+    static constexpr double Prominence = 4.5; // of a crease's turn over the mean turn of the other edges around it
+    static constexpr int RoughnessRounds = 3; // of averaging over the neighbours
+    static constexpr double Share = 0.7;      // of the feature angle, that the mean normals have to differ by
+    static constexpr double Radius = 1.0;     // of the neighbourhood, in spacings
+    static constexpr double LeastLength = 4;  // of a connected set, in spacings
     static constexpr std::size_t MostFaces = 256;
 
     ReferenceSurface &_surface;
@@ -57,6 +63,7 @@ private:
     const double _turn;
     const std::vector<Point> _normal;
     std::vector<int> _stamp;
+
     struct Seen {
         int face;
         double sign; // 1 or -1: whether its normal runs with that of the first face
@@ -65,6 +72,50 @@ private:
 
     bool Marked(Side s) const { return !_marked.empty() && ((_marked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0; }
     Point Middle(Side s) const { return (_surface.position[_mesh.Tail(s)] + _surface.position[_mesh.Head(s)]) / 2; }
+
+    double Turn(Side s) const
+    {
+        const Point &one = _normal[SideTriangle(s)];
+        const Point two = _normal[SideTriangle(_mesh.Mate(s))] * (_mesh.Coherent(s) ? 1.0 : -1.0);
+        return std::atan2(Norm(Cross(one, two)), Dot(one, two));
+    }
+
+    // The mean turn of the edges that are no creases, around each vertex.
+    std::vector<double> Roughness() const
+    {
+        struct Mean {
+            double sum = 0, weight = 0;
+            void Add(double x, double w)
+            {
+                sum += x;
+                weight += w;
+            }
+        };
+        std::vector<Mean> mean(_mesh.VertexCount()), last;
+        for (int t = 0; t < _mesh.TriangleCount(); ++t)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(t, e);
+                if (_mesh.Mate(s) <= s || _mesh.Constrained(s))
+                    continue;
+                const double turn = Turn(s);
+                mean[_mesh.Tail(s)].Add(turn, 1);
+                mean[_mesh.Head(s)].Add(turn, 1);
+            }
+        for (int round = 0; round < RoughnessRounds; ++round) {
+            last = mean;
+            for (const Triangle &T : _mesh.triangle)
+                for (int k = 0; k < 3; ++k)
+                    for (const int o : {T.v[Next(k)], T.v[Prev(k)]})
+                        mean[T.v[k]].Add(last[o].sum, last[o].weight);
+            for (Mean &m : mean)
+                m = {m.weight > 0 ? m.sum / m.weight : 0.0, m.weight > 0 ? 1.0 : 0.0};
+        }
+        std::vector<double> rough;
+        rough.reserve(mean.size());
+        for (const Mean &m : mean)
+            rough.push_back(m.sum);
+        return rough;
+    }
 
     // The mean normals of the surface around the middle of the edge, on either side of it.
     bool TurnsAtLargeScale(Side s, int tick)

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/ccdm/angle_polish.h>
+
+#include <gtest/gtest.h>
+
+#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
+#include <vcg/complex/algorithms/ccdm/triangulation.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using namespace vcg::ccdm;
+
+TEST(SmallestAngle, AgreesWithTheArcTangent)
+{
+    Random random(2);
+    for (int i = 0; i < 1000; ++i) {
+        const Point p[3] = {Point(random.Unit(), random.Unit(), random.Unit()),
+                            Point(random.Unit(), random.Unit(), random.Unit()),
+                            Point(random.Unit(), random.Unit(), random.Unit())};
+        double least = Pi;
+        for (int k = 0; k < 3; ++k) {
+            const Point u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
+            least = std::min(least, std::atan2(Norm(Cross(u, w)), Dot(u, w)));
+        }
+        EXPECT_NEAR(SmallestAngle(p[0], p[1], p[2]), least, 1.5e-4);
+    }
+    EXPECT_EQ(SmallestAngle(Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)), 0);
+}
+
+TEST(AnglePolish, RaisesTheMeanSmallestAngleAndKeepsTheSurface)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(4), 2562, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Random random(3);
+    Relocator(model, r).Sweep(Perturbation{0.3, random});
+    const auto mean = [&] {
+        double sum = 0;
+        for (const Triangle &T : r.mesh.triangle)
+            sum += SmallestAngle(r.position[T.v[0]], r.position[T.v[1]], r.position[T.v[2]]);
+        return sum / r.mesh.TriangleCount() * 180 / Pi;
+    };
+    const double before = mean();
+    AnglePolish(model, r).Run(14);
+    EXPECT_GT(mean(), before + 5);
+    EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
+    for (int v = 0; v < r.VertexCount(); ++v)
+        EXPECT_LT(model.surface.NearestOn(r.place[v].face, r.position[v]).squaredDistance, 1e-20);
+}
+
+} // namespace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/ccdm/false_creases.h>
+
+#include <gtest/gtest.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using namespace vcg::ccdm;
+
+struct Kept {
+    int before, after, dropped;
+};
+
+Kept Creases(const shapes::Shape &s, double angle, double spacing, const SideMarks &marked = {})
+{
+    const MeshTables t = meshes::Tables(s);
+    ReferenceSurface surface(t.position, t.face);
+    MarkFeatures(surface, angle, marked);
+    const auto count = [&] {
+        int n = 0;
+        for (int f = 0; f < surface.FaceCount(); ++f)
+            for (int e = 0; e < 3; ++e)
+                n += surface.mesh.Constrained(MakeSide(f, e)) && surface.mesh.Mate(MakeSide(f, e)) < MakeSide(f, e);
+        return n;
+    };
+    Kept k{count(), 0, 0};
+    const std::vector<double> h(t.position.size(), spacing);
+    k.dropped = FalseCreases(surface, h, marked, angle).Drop();
+    k.after = count();
+    return k;
+}
+
+TEST(FalseCreases, TrueCreasesStay)
+{
+    for (const shapes::Shape &s : {shapes::Box(1, 2, 3), shapes::CadPart(), shapes::TwistedBar(80, 3)}) {
+        const Kept k = Creases(s, 40, 0.05);
+        EXPECT_GT(k.before, 0);
+        EXPECT_EQ(k.after, k.before);
+        EXPECT_EQ(k.dropped, 0);
+    }
+}
+
+TEST(FalseCreases, NoiseOnASphereHasNone)
+{
+    shapes::Shape s = shapes::Sphere(5); // edges of about 0.04
+    shapes::AddNoise(s, 0.012);
+    const Kept k = Creases(s, 40, 0.06);
+    EXPECT_GT(k.before, 500);
+    EXPECT_EQ(k.after, 0);
+}
+
+TEST(FalseCreases, CreasesUnderNoiseStay)
+{
+    // A finely meshed box with noise a twentieth of its edges: the twelve creases of twenty edges or so.
+    shapes::Shape s = shapes::Subdivide(shapes::Subdivide(shapes::Subdivide(shapes::Box(1, 1, 1))));
+    const Kept plain = Creases(s, 40, 0.1);
+    shapes::AddNoise(s, 0.006);
+    const Kept noisy = Creases(s, 40, 0.1);
+    EXPECT_EQ(plain.after, plain.before);
+    EXPECT_GE(noisy.after, plain.after * 0.97);
+    EXPECT_LE(noisy.after, plain.after * 1.03);
+}
+
+TEST(FalseCreases, AShortFragmentIsDroppedUnlessItIsMarked)
+{
+    // One vertex of a plane, lifted: a spike with a crease around and up its sides.
+    shapes::Shape s = shapes::FlatGrid(20);
+    for (auto &p : s.points)
+        if (std::hypot(p[0] - 0.5, p[1] - 0.5) < 1e-9)
+            p[2] = 0.05;
+    const MeshTables t = meshes::Tables(s);
+    const int boundary = 80;
+    const Kept large = Creases(s, 40, 0.2);
+    EXPECT_GT(large.before, boundary);
+    EXPECT_EQ(large.after, boundary);
+    SideMarks all(t.face.size(), 7);
+    EXPECT_EQ(Creases(s, 40, 0.2, all).after, Creases(s, 40, 0.2, all).before);
+}
+
+} // namespace
