@@ -7,6 +7,7 @@
 #include <vcg/complex/complex.h>
 
 #include <vcg/complex/algorithms/ccdm/input_mesh.h>
+#include <vcg/complex/algorithms/ccdm/parallel.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
 #include "support/shapes.h"
@@ -94,6 +95,13 @@ inline vcg::ccdm::Model MakeModel(const shapes::Shape &s, int n, double featureA
         vcg::ccdm::MakeDensityField(model.surface, std::vector<double>(t.position.size(), 1.0), true, 0.2, n);
     model.features = vcg::ccdm::FeatureTracer(model.surface, model.density.spacing, {}, 50).Trace();
     return model;
+}
+
+/// One thread, for parts that are tested by themselves.
+inline vcg::ccdm::Workers &Alone()
+{
+    static vcg::ccdm::Workers workers(1);
+    return workers;
 }
 
 /// The model's own triangulation as a remesh, every vertex off the features free.

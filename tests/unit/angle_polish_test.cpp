@@ -34,7 +34,7 @@ TEST(AnglePolish, RaisesTheMeanSmallestAngleAndKeepsTheSurface)
     const Model model = meshes::MakeModel(shapes::Bumpy(4), 2562, 180);
     Remesh r = meshes::AsRemesh(model);
     Random random(3);
-    Relocator(model, r).Sweep(Perturbation{0.3, random});
+    Relocator(model, r).Sweep(Perturbation{0.3, random.Bits()});
     const auto mean = [&] {
         double sum = 0;
         for (const Triangle &T : r.mesh.triangle)
@@ -42,7 +42,7 @@ TEST(AnglePolish, RaisesTheMeanSmallestAngleAndKeepsTheSurface)
         return sum / r.mesh.TriangleCount() * 180 / Pi;
     };
     const double before = mean();
-    AnglePolish(model, r).Run(14);
+    AnglePolish(model, r, meshes::Alone()).Run(14);
     EXPECT_GT(mean(), before + 5);
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
     for (int v = 0; v < r.VertexCount(); ++v)

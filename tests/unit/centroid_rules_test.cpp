@@ -50,8 +50,8 @@ struct Plane {
         remesh = meshes::AsRemesh(model);
         Relocator relocator(model, remesh);
         Random random(5);
-        relocator.Sweep(Perturbation{0.35, random});
-        DelaunayFlipper().Run(remesh);
+        relocator.Sweep(Perturbation{0.35, random.Bits()});
+        DelaunayFlipper(meshes::Alone()).Run(remesh);
     }
     Point Displacement(int v, bool uniform)
     {
@@ -112,10 +112,10 @@ TEST(HeavyBall, ConvergesToTheRulesFixedPointSooner)
     const auto energyAfter = [&](bool heavy) {
         Remesh r = meshes::AsRemesh(model);
         Relocator relocator(model, r);
-        DelaunayFlipper flipper;
+        DelaunayFlipper flipper(meshes::Alone());
         Random random(5);
         for (int i = 0; i < 3; ++i)
-            relocator.Sweep(Perturbation{0.5, random});
+            relocator.Sweep(Perturbation{0.5, random.Bits()});
         std::vector<Point> last = r.position;
         const HeavyBall<CellCentroid> pull = {{r, true}, {{r, true}}, 1.5, 0.6, r.position, last};
         for (int i = 0; i < 30; ++i) {
@@ -126,7 +126,7 @@ TEST(HeavyBall, ConvergesToTheRulesFixedPointSooner)
                 relocator.Sweep(CellCentroid{r, true});
         }
         flipper.Run(r);
-        return Energy(r);
+        return Energy(r, meshes::Alone());
     };
     EXPECT_LT(energyAfter(true), energyAfter(false));
 }
@@ -138,9 +138,9 @@ TEST(CurveCentroid, SpacesACurveMoreEvenlyThanTheStar)
     const auto spread = [&](auto makeRule) {
         Remesh r = meshes::AsRemesh(model);
         Relocator relocator(model, r);
-        DelaunayFlipper flipper;
+        DelaunayFlipper flipper(meshes::Alone());
         Random random(7);
-        relocator.Sweep(Perturbation{0.4, random});
+        relocator.Sweep(Perturbation{0.4, random.Bits()});
         const auto rule = makeRule(r);
         for (int i = 0; i < 200; ++i) {
             flipper.Run(r);

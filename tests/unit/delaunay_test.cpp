@@ -45,10 +45,10 @@ TEST(DelaunayFlipper, MakesAPlaneTriangulationDelaunay)
                 s.points[v][k] += 0.018 * shapes::Noise(2 * v + k);
     Remesh r = meshes::AsRemesh(meshes::MakeModel(s, 1000, 180));
     EXPECT_GT(CountNotDelaunay(r, false), 20);
-    EXPECT_GT(DelaunayFlipper().Run(r), 20);
+    EXPECT_GT(DelaunayFlipper(meshes::Alone()).Run(r), 20);
     EXPECT_EQ(CountNotDelaunay(r, false), 0);
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
-    EXPECT_EQ(DelaunayFlipper().Run(r), 0);
+    EXPECT_EQ(DelaunayFlipper(meshes::Alone()).Run(r), 0);
 }
 
 TEST(DelaunayFlipper, LeavesOnlyWhatMayNotFlip)
@@ -56,7 +56,7 @@ TEST(DelaunayFlipper, LeavesOnlyWhatMayNotFlip)
     for (const shapes::Shape &s : {shapes::Bumpy(4), shapes::KleinBottle(50, 30), shapes::CadPart()}) {
         Remesh r = Shaken(s, 180, 0.01);
         const TopologyCounts before = VerifyTriangulation(r.mesh).counts;
-        EXPECT_GT(DelaunayFlipper().Run(r), 0);
+        EXPECT_GT(DelaunayFlipper(meshes::Alone()).Run(r), 0);
         EXPECT_EQ(CountNotDelaunay(r, true), 0);
         EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
         EXPECT_TRUE(VerifyTriangulation(r.mesh).counts.SameTypeAs(before));
@@ -67,7 +67,7 @@ TEST(DelaunayFlipper, NeverFlipsAFeature)
 {
     const Model model = meshes::MakeModel(shapes::CadPart(), 1000, 40);
     Remesh r = meshes::AsRemesh(model);
-    DelaunayFlipper().Run(r);
+    DelaunayFlipper(meshes::Alone()).Run(r);
     for (const FeatureCurve &c : model.features.curve)
         for (int k = 0; k < c.Segments(); ++k) {
             const Side s = r.mesh.FindEdge(c.vertex[k], c.vertex[k + 1]);

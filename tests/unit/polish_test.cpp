@@ -32,7 +32,7 @@ TEST(Polish, RaisesTheSmallestAngle)
     Relocator relocator(model, r);
     Random random(3);
     for (int i = 0; i < 3; ++i)
-        relocator.Sweep(Perturbation{0.4, random});
+        relocator.Sweep(Perturbation{0.4, random.Bits()});
     const double before = SmallestAngle(r);
     ASSERT_LT(before, 25);
     EXPECT_EQ(Polish(model, r).RaiseAngles(34, 0.1, 40), 0);

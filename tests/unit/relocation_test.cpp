@@ -38,7 +38,7 @@ TEST(Energy, AgreesWithNumericalIntegration)
             for (const int v : T.v)
                 sum += NumericalMoment(a, b, c, r.position[v], rho, 40);
         }
-        EXPECT_NEAR(Energy(r) / sum, 1, 2e-3);
+        EXPECT_NEAR(Energy(r, meshes::Alone()) / sum, 1, 2e-3);
     }
 }
 
@@ -76,7 +76,7 @@ TEST(Relocator, SettlesAPlaneMeshOnItsCentroids)
     Remesh r = meshes::AsRemesh(model);
     Random random(2);
     Relocator relocator(model, r);
-    relocator.Sweep(Perturbation{0.3, random});
+    relocator.Sweep(Perturbation{0.3, random.Bits()});
     double largest = 1;
     for (int i = 0; i < 300 && largest > 1e-7; ++i) {
         largest = 0;
@@ -100,7 +100,7 @@ TEST(Relocator, KeepsVerticesOnTheSurfaceAndOnTheirCurves)
         Random random(4);
         Relocator relocator(model, r);
         for (int i = 0; i < 5; ++i) {
-            relocator.Sweep(Perturbation{0.2, random});
+            relocator.Sweep(Perturbation{0.2, random.Bits()});
             relocator.Sweep(PatchCentroid{r, true});
         }
         int moved = 0;
@@ -130,7 +130,7 @@ TEST(Relocator, RefusesToFoldAStar)
     Relocator relocator(model, r);
     Random random(9);
     for (int i = 0; i < 20; ++i)
-        relocator.Sweep(Perturbation{1.0, random});
+        relocator.Sweep(Perturbation{1.0, random.Bits()});
     for (const Triangle &T : r.mesh.triangle) {
         const Point &a = r.position[T.v[0]];
         EXPECT_GT(Cross(r.position[T.v[1]] - a, r.position[T.v[2]] - a)[2], 0);
@@ -164,7 +164,7 @@ TEST(Perturbation, StepsLieInTheTangentPlaneWithinLambda)
     Random random(1);
     double longest = 0;
     relocator.Sweep([&](const LocalStar &star, int v) {
-        const Point d = Perturbation{0.2, random}(star, v);
+        const Point d = Perturbation{0.2, random.Bits()}(star, v);
         EXPECT_NEAR(Dot(d, Normalized(star.normal)), 0, 1e-12);
         EXPECT_LE(Norm(d), 0.2 * star.radius * (1 + 1e-9));
         longest = std::max(longest, Norm(d) / star.radius);

@@ -63,6 +63,8 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
                    "smallest angle that the closing polish aims at, degrees, 0 to 45 (default: 40; with annealing 34)")
         ->check(CLI::Range(0.0, 45.0));
     app.add_option("--seed", p.seed, "of the random generator, 0 to 4294967295")->capture_default_str();
+    app.add_option("--threads", p.threads, "0 (default): as many as there are cores; the result is the same for any")
+        ->check(CLI::Range(0, 256));
 }
 
 } // namespace

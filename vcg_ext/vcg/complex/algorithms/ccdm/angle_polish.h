@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/relocation.h>
@@ -29,7 +30,10 @@ inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
 class AnglePolish
 {
 public:
-    AnglePolish(const Model &model, Remesh &remesh) : _remesh(remesh), _relocator(model, remesh) {}
+    AnglePolish(const Model &model, Remesh &remesh, Workers &workers)
+        : _remesh(remesh), _schedule(remesh, workers), _relocator(workers.Count(), Relocator(model, remesh))
+    {
+    }
 
     /// `rounds` times through all edges and vertices, the moves getting smaller.
     void Run(int rounds)
@@ -37,16 +41,18 @@ public:
         double size = 0.1;
         for (int round = 0; round < rounds; ++round, size *= 0.8) {
             Flip();
-            for (int v = 0; v < _remesh.VertexCount(); ++v)
+            _schedule.ForVertices([&](int v, int worker) {
                 if (_remesh.place[v].kind != VertexKind::Corner)
-                    _relocator.Climb(v, size, 0.5 * round, Sum);
+                    _relocator[worker].Climb(v, size, 0.5 * round, Sum);
+            });
         }
         Flip();
     }
 
 private:
     Remesh &_remesh;
-    Relocator _relocator;
+    PatchSchedule _schedule;
+    std::vector<Relocator> _relocator; // one for each worker
 
     static double Sum(const LocalStar &s, const Point &q)
     {
@@ -56,20 +62,25 @@ private:
         return sum;
     }
 
+    bool FlipHelps(Side s, const Hinge &h) const
+    {
+        if (_remesh.mesh.Constrained(s))
+            return false;
+        const double before = SmallestAngle(h.a, h.p, h.q) + SmallestAngle(h.b, h.p, h.q);
+        const double after = SmallestAngle(h.a, h.p, h.b) + SmallestAngle(h.a, h.b, h.q);
+        return after > before + 1e-3;
+    }
+
     void Flip()
     {
-        const Triangulation &m = _remesh.mesh;
-        for (int t = 0; t < m.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (m.Mate(s) < s || m.Constrained(s))
-                    continue;
-                const Hinge h(_remesh, s);
-                const double before = SmallestAngle(h.a, h.p, h.q) + SmallestAngle(h.b, h.p, h.q);
-                const double after = SmallestAngle(h.a, h.p, h.b) + SmallestAngle(h.a, h.b, h.q);
-                if (after > before + 1e-3 && MayFlip(_remesh, s, h))
-                    _remesh.mesh.Flip(s);
-            }
+        _schedule.ForEdges([&](Side s) { return FlipHelps(s, Hinge(_remesh, s)); },
+                           [&](Side s) {
+                               if (_remesh.mesh.Mate(s) == NoSide)
+                                   return;
+                               const Hinge h(_remesh, s);
+                               if (FlipHelps(s, h) && MayFlip(_remesh, s, h))
+                                   _remesh.mesh.Flip(s);
+                           });
     }
 };
 

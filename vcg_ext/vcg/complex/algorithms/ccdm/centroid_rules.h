@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/relocation.h>
@@ -33,12 +34,14 @@ struct PatchCentroid {
 };
 
 /// Random step of at most lambda times the mean edge length in the tangent plane: equation (4).
+/// Each vertex draws from a sequence of its own, so that the order of the vertices does not matter.
 struct Perturbation {
     double lambda;
-    Random &random;
+    std::uint64_t seed;
 
-    Point operator()(const LocalStar &star, int) const
+    Point operator()(const LocalStar &star, int v) const
     {
+        Random random(seed + static_cast<std::uint64_t>(v) * 0xd1b54a32d192ed03ULL);
         const double u = random.Unit(), angle = 2 * Pi * random.Unit();
         return Relocator::TangentStep(star, angle) * (lambda * star.radius * u);
     }

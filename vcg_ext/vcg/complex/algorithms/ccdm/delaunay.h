@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include <vcg/complex/algorithms/ccdm/remesh.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 
 namespace vcg {
 namespace ccdm {
@@ -63,45 +63,30 @@ inline bool MayFlip(const Remesh &r, Side s, const Hinge &h)
 }
 
 /// Makes the mesh a Delaunay mesh by flipping the edges that are not locally Delaunay, the worst first
-/// (paper, section 3.3; [DZM07a]).
+/// (paper, section 3.3; [DZM07a]). Patches of the mesh are worked on at the same time.
 class DelaunayFlipper
 {
 public:
-    /// Returns the number of flips. Bounded by eight flips an edge: geometry that would go on longer is
-    /// left as it is.
+    explicit DelaunayFlipper(Workers &workers) : _workers(workers) {}
+
+    /// Returns the number of flips. Bounded by a fixed number of flips an edge: geometry that would go on
+    /// longer is left as it is.
     long long Run(Remesh &r)
     {
-        _queue.clear();
-        const int count = r.mesh.TriangleCount();
-        for (int t = 0; t < count; ++t) {
-            // Only an edge opposite an obtuse angle can fail, and a triangle has at most one.
-            const Triangle &T = r.mesh.triangle[t];
-            const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
-            const double la = SquaredNorm(c - b), lb = SquaredNorm(a - c), lc = SquaredNorm(b - a);
-            const int e = la > lb ? (la > lc ? 0 : 2) : (lb > lc ? 1 : 2);
-            if (2 * std::max({la, lb, lc}) > la + lb + lc)
-                Enqueue(r, MakeSide(t, e));
+        std::vector<Task> task(Patches::Count(r.VertexCount()));
+        Task last;
+        for (const Entry &e : Find(r)) {
+            const int patch = PatchOfHinge(r, e.side);
+            (patch >= 0 ? task[patch] : last).queue.push_back(e);
         }
+        _workers.For(static_cast<int>(task.size()), [&](int patch, int) { task[patch].Run(r, patch); });
         long long flips = 0;
-        const long long limit = 12LL * count + 64;
-        while (!_queue.empty() && flips < limit) {
-            std::pop_heap(_queue.begin(), _queue.end());
-            const Entry top = _queue.back();
-            _queue.pop_back();
-            if (r.mesh.Mate(top.side) == NoSide || r.mesh.Constrained(top.side))
-                continue;
-            const Hinge h(r, top.side);
-            // An entry whose edge has changed since is void: the change has queued what it left.
-            if (h.Excess() != top.excess || !MayFlip(r, top.side, h))
-                continue;
-            const int t = SideTriangle(top.side), u = SideTriangle(r.mesh.Mate(top.side));
-            r.mesh.Flip(top.side);
-            ++flips;
-            for (const int k : {t, u})
-                for (int e = 0; e < 3; ++e)
-                    Enqueue(r, MakeSide(k, e));
+        for (const Task &t : task) {
+            last.queue.insert(last.queue.end(), t.left.begin(), t.left.end());
+            flips += t.flips;
         }
-        return flips;
+        last.Run(r, Everywhere);
+        return flips + last.flips;
     }
 
 private:
@@ -110,17 +95,81 @@ private:
         Side side;
         bool operator<(const Entry &o) const { return excess != o.excess ? excess < o.excess : side < o.side; }
     };
-    std::vector<Entry> _queue;
+    static constexpr int Everywhere = -1;
 
-    void Enqueue(const Remesh &r, Side s)
-    {
-        if (r.mesh.Mate(s) == NoSide || r.mesh.Constrained(s))
-            return;
-        const double excess = Hinge(r, s).Excess();
-        if (excess > 0) {
-            _queue.push_back({excess, s});
-            std::push_heap(_queue.begin(), _queue.end());
+    // The edges of one patch, and what its flips leave to do across its border.
+    struct Task {
+        std::vector<Entry> queue, left;
+        long long flips = 0;
+
+        void Run(Remesh &r, int patch)
+        {
+            std::make_heap(queue.begin(), queue.end());
+            const long long limit = 12LL * (patch == Everywhere ? r.mesh.TriangleCount() : 2 * Patches::Size) + 64;
+            while (!queue.empty() && flips < limit) {
+                std::pop_heap(queue.begin(), queue.end());
+                const Entry top = queue.back();
+                queue.pop_back();
+                if (r.mesh.Mate(top.side) == NoSide || r.mesh.Constrained(top.side))
+                    continue;
+                // An entry whose edge has changed since is void: the change has queued what it left.
+                if (patch != Everywhere && PatchOfHinge(r, top.side) != patch)
+                    continue;
+                const Hinge h(r, top.side);
+                if (h.Excess() != top.excess || !MayFlip(r, top.side, h))
+                    continue;
+                const int t = SideTriangle(top.side), u = SideTriangle(r.mesh.Mate(top.side));
+                r.mesh.Flip(top.side);
+                ++flips;
+                for (const int k : {t, u})
+                    for (int e = 0; e < 3; ++e)
+                        Enqueue(r, MakeSide(k, e), patch);
+            }
         }
+
+        void Enqueue(const Remesh &r, Side s, int patch)
+        {
+            if (r.mesh.Mate(s) == NoSide || r.mesh.Constrained(s))
+                return;
+            const double excess = Hinge(r, s).Excess();
+            if (!(excess > 0))
+                return;
+            if (patch != Everywhere && PatchOfHinge(r, s) != patch) {
+                left.push_back({excess, s});
+                return;
+            }
+            queue.push_back({excess, s});
+            std::push_heap(queue.begin(), queue.end());
+        }
+    };
+
+    Workers &_workers;
+    std::vector<std::vector<Entry>> _found;
+
+    std::vector<Entry> Find(const Remesh &r)
+    {
+        const int count = r.mesh.TriangleCount();
+        _found.resize(Chunks::Count(count));
+        Chunks::For(_workers, count, [&](int first, int last, int chunk) {
+            std::vector<Entry> &found = _found[chunk];
+            found.clear();
+            for (int t = first; t < last; ++t) {
+                // Only an edge opposite an obtuse angle can fail, and a triangle has at most one.
+                const Triangle &T = r.mesh.triangle[t];
+                const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
+                const double la = SquaredNorm(c - b), lb = SquaredNorm(a - c), lc = SquaredNorm(b - a);
+                const int e = la > lb ? (la > lc ? 0 : 2) : (lb > lc ? 1 : 2);
+                if (!(2 * std::max({la, lb, lc}) > la + lb + lc) || T.n[e] == NoSide || T.Constrained(e))
+                    continue;
+                const double excess = Hinge(r, MakeSide(t, e)).Excess();
+                if (excess > 0)
+                    found.push_back({excess, MakeSide(t, e)});
+            }
+        });
+        std::vector<Entry> all;
+        for (const std::vector<Entry> &found : _found)
+            all.insert(all.end(), found.begin(), found.end());
+        return all;
     }
 };
 

@@ -21,8 +21,9 @@ public:
     /// Called with the share of the work done, in [0, 1]; false stops the optimisation.
     using Progress = std::function<bool(double)>;
 
-    Optimizer(const Model &model, const Params &params, Remesh &remesh, Report &report)
-        : _model(model), _params(params), _remesh(remesh), _report(report), _relocator(model, remesh),
+    Optimizer(const Model &model, const Params &params, Remesh &remesh, Report &report, Workers &workers)
+        : _model(model), _params(params), _remesh(remesh), _report(report), _workers(workers),
+          _schedule(remesh, workers), _relocator(workers.Count(), Relocator(model, remesh)), _flipper(workers),
           _random(params.seed ^ 0x6f7074696d697a65ULL)
     {
     }
@@ -58,17 +59,25 @@ private:
     const Params &_params;
     Remesh &_remesh;
     Report &_report;
-    Relocator _relocator;
+    Workers &_workers;
+    PatchSchedule _schedule;
+    std::vector<Relocator> _relocator; // one for each worker
     DelaunayFlipper _flipper;
     Random _random;
     std::vector<int> _pinned; // vertices held on a tip of the input
 
-    void Flip() { _report.flips += _flipper.Run(_remesh); }
+    void Flip()
+    {
+        const long long flips = _flipper.Run(_remesh);
+        if (flips > 0)
+            _schedule.Changed();
+        _report.flips += flips;
+    }
 
     template <class Displacement>
     void Sweep(const Displacement &displacement)
     {
-        _relocator.Sweep(displacement);
+        _schedule.ForVertices([&](int v, int worker) { _relocator[worker].Relocate(v, displacement); });
         _report.relocations += _remesh.VertexCount();
     }
 
@@ -104,24 +113,25 @@ private:
     {
         OptimizeLocally();
         Remesh best = _remesh;
-        double bestEnergy = Energy(_remesh);
+        double bestEnergy = Energy(_remesh, _workers);
         _report.energy.assign(1, bestEnergy);
         for (int i = 0; i < _params.globalIterations; ++i) {
             const int left = _params.globalIterations - i;
             if (left == 9 || left == 6 || left == 3) {
                 PinExtremes();
                 best = _remesh;
-                bestEnergy = Energy(_remesh);
+                bestEnergy = Energy(_remesh, _workers);
             }
-            _relocator.Sweep(Perturbation{_params.lambda, _random});
+            Sweep(Perturbation{_params.lambda, _random.Bits()});
             OptimizeLocally();
-            const double energy = Energy(_remesh);
+            const double energy = Energy(_remesh, _workers);
             if (energy < bestEnergy) {
                 bestEnergy = energy;
                 best = _remesh;
                 ++_report.accepted;
             } else {
                 _remesh = best;
+                _schedule.Changed();
             }
             _report.energy.push_back(bestEnergy);
             if (!progress(static_cast<double>(i + 1) / _params.globalIterations))
@@ -142,18 +152,18 @@ private:
         const HeavyBall<CellCentroid> pull = {
             {_remesh, uniform}, {{_remesh, uniform}}, 1.5, 0.6, _remesh.position, last};
         Flip();
-        _report.energy.assign(1, Energy(_remesh));
+        _report.energy.assign(1, Energy(_remesh, _workers));
         for (int i = 0; i < count; ++i) {
             const double noise = 0.5 * _params.lambda * (1 - i / (0.6 * count));
             if (i % 3 == 0 && noise > 0) {
-                Perturbation perturb{noise, _random};
+                const Perturbation perturb{noise, _random.Bits()};
                 Sweep([&](const LocalStar &star, int v) { return Point(pull(star, v) + perturb(star, v)); });
             } else {
                 Sweep(pull);
             }
             Flip();
             if ((i + 1) % _params.localIterations == 0) {
-                _report.energy.push_back(Energy(_remesh));
+                _report.energy.push_back(Energy(_remesh, _workers));
                 ++_report.accepted; // no state is taken back
             }
             if (i == count * 4 / 5 || i == count * 9 / 10)
@@ -165,7 +175,8 @@ private:
             Sweep(PatchCentroid{_remesh, uniform});
             Flip();
         }
-        AnglePolish(_model, _remesh).Run(PolishRounds);
+        AnglePolish(_model, _remesh, _workers).Run(PolishRounds);
+        _schedule.Changed();
         return progress(1);
     }
 

@@ -59,6 +59,8 @@ struct Params {
     std::optional<double> minAngle;
     /// Seed of the only random generator; equal input, parameters and seed give equal results.
     std::uint32_t seed = 1;
+    /// Number of threads, at least 0; 0: as many as the machine has cores. The result is the same for any.
+    int threads = 0;
 };
 
 /// The gamma of a run.

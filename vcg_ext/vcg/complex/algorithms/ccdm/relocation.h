@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include <vcg/complex/algorithms/ccdm/remesh.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 
 namespace vcg {
 namespace ccdm {
@@ -42,11 +42,18 @@ public:
         long long moved = 0;
         const int count = _remesh.VertexCount();
         for (int v = 0; v < count; ++v)
-            if (_remesh.place[v].kind != VertexKind::Corner) {
-                Gather(v);
-                moved += Move(v, displacement(_star, v), [](const Point &) { return true; });
-            }
+            moved += Relocate(v, displacement);
         return moved;
+    }
+
+    /// Moves v by `displacement(star, v)`. Returns whether it moved.
+    template <class Displacement>
+    bool Relocate(int v, const Displacement &displacement)
+    {
+        if (_remesh.place[v].kind == VertexKind::Corner)
+            return false;
+        Gather(v);
+        return Move(v, displacement(_star, v), [](const Point &) { return true; });
     }
 
     /// Moves v by `size` times its mean edge length in the direction `angle` of its tangent plane if
@@ -341,14 +348,23 @@ private:
 
 /// The energy F of equation (1): 5/12 of the sum over the triangles of density * area * the sum of
 /// the squared edge lengths, the density being constant on each triangle.
-inline double Energy(const Remesh &r)
+inline double Energy(const Remesh &r, Workers &workers)
 {
+    const int count = r.mesh.TriangleCount();
+    std::vector<double> part(Chunks::Count(count), 0);
+    Chunks::For(workers, count, [&](int first, int last, int chunk) {
+        double sum = 0;
+        for (int t = first; t < last; ++t) {
+            const Triangle &T = r.mesh.triangle[t];
+            const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
+            const double rho = (r.rho[T.v[0]] + r.rho[T.v[1]] + r.rho[T.v[2]]) / 3;
+            sum += rho * Norm(Cross(b - a, c - a)) / 2 * (SquaredNorm(b - a) + SquaredNorm(c - b) + SquaredNorm(a - c));
+        }
+        part[chunk] = sum;
+    });
     double sum = 0;
-    for (const Triangle &T : r.mesh.triangle) {
-        const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
-        const double rho = (r.rho[T.v[0]] + r.rho[T.v[1]] + r.rho[T.v[2]]) / 3;
-        sum += rho * Norm(Cross(b - a, c - a)) / 2 * (SquaredNorm(b - a) + SquaredNorm(c - b) + SquaredNorm(a - c));
-    }
+    for (const double p : part)
+        sum += p;
     return sum * 5 / 12;
 }
 

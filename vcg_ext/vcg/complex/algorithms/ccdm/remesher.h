@@ -26,7 +26,10 @@ public:
     /// Gets a position in 0..100 and the name of the phase; false cancels.
     using Progress = std::function<bool(int, const char *)>;
 
-    Remesher(const Params &params, Progress progress) : _params(params), _progress(std::move(progress)) {}
+    Remesher(const Params &params, Progress progress)
+        : _params(params), _progress(std::move(progress)), _workers(params.threads)
+    {
+    }
 
     /// `output` is filled only when the report's status is Done.
     Report Run(const MeshTables &input, MeshTables &output)
@@ -39,6 +42,7 @@ private:
     using Clock = std::chrono::steady_clock;
     const Params _params;
     const Progress _progress;
+    Workers _workers;
     Report _report;
     Clock::time_point _phaseStart;
     const char *_phase = "";
@@ -121,7 +125,7 @@ private:
         if (!Begin("optimising", 20, 92))
             return false;
         _report.accepted = 0;
-        Optimizer optimizer(model, params, remesh, _report);
+        Optimizer optimizer(model, params, remesh, _report, _workers);
         if (!optimizer.Run([this](double x) { return Advance(x); }))
             return false;
 
@@ -160,6 +164,8 @@ private:
             return bad("the density exponent must lie between 0 and 3");
         if (!(MinAngle(p) >= 0 && MinAngle(p) <= 45))
             return bad("the smallest angle aimed at must lie between 0 and 45 degrees");
+        if (p.threads < 0)
+            return bad("the number of threads must be at least 0");
         _report.requestedVertices = p.vertexCount;
         return true;
     }

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_PARALLEL_H
+#define VCG_CCDM_PARALLEL_H
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace vcg {
+namespace ccdm {
+
+/// A few threads that work off numbered tasks. What the tasks compute must not depend on which worker
+/// runs which, nor on the order: then the result is the same for any number of threads.
+class Workers
+{
+public:
+    /// `threads` of them, this one included; 0: as many as the machine has cores. Fewer if the system
+    /// refuses more.
+    explicit Workers(int threads)
+    {
+        const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        const int wanted = std::clamp(threads > 0 ? threads : cores, 1, MostThreads);
+        _thread.reserve(static_cast<std::size_t>(wanted) - 1);
+        try {
+            for (int i = 1; i < wanted; ++i)
+                _thread.emplace_back([this, i] { Serve(i); });
+        } catch (const std::system_error &) { // NOLINT(bugprone-empty-catch): fewer threads do as well
+        }
+    }
+    ~Workers()
+    {
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _quit = true;
+        }
+        _wake.notify_all();
+        for (std::thread &t : _thread)
+            t.join();
+    }
+    Workers(const Workers &) = delete;
+    Workers &operator=(const Workers &) = delete;
+
+    int Count() const { return static_cast<int>(_thread.size()) + 1; }
+
+    /// Calls task(index, worker) for every index in [0, count), worker being in [0, Count()). Returns when
+    /// all are done; rethrows the first exception of a task.
+    template <class Task>
+    void For(int count, Task task)
+    {
+        if (_thread.empty() || count <= 1) {
+            for (int i = 0; i < count; ++i)
+                task(i, 0);
+            return;
+        }
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _task = std::ref(task);
+            _count = count;
+            _next = 0;
+            _busy = static_cast<int>(_thread.size());
+            _error = nullptr;
+            ++_generation;
+        }
+        _wake.notify_all();
+        Work(0);
+        std::unique_lock<std::mutex> lock(_mutex);
+        _idle.wait(lock, [this] { return _busy == 0; });
+        if (_error)
+            std::rethrow_exception(_error);
+    }
+
+private:
+    static constexpr int MostThreads = 256;
+
+    std::vector<std::thread> _thread;
+    std::mutex _mutex;
+    std::condition_variable _wake, _idle;
+    std::function<void(int, int)> _task;
+    std::atomic<int> _next{0};
+    int _count = 0, _busy = 0;
+    long long _generation = 0;
+    bool _quit = false;
+    std::exception_ptr _error;
+
+    void Work(int worker)
+    {
+        try {
+            for (int i = _next++; i < _count; i = _next++)
+                _task(i, worker);
+        } catch (...) {
+            _next = _count;
+            const std::lock_guard<std::mutex> lock(_mutex);
+            if (!_error)
+                _error = std::current_exception();
+        }
+    }
+
+    void Serve(int worker)
+    {
+        long long seen = 0;
+        for (;;) {
+            {
+                std::unique_lock<std::mutex> lock(_mutex);
+                _wake.wait(lock, [&] { return _quit || _generation != seen; });
+                if (_quit)
+                    return;
+                seen = _generation;
+            }
+            Work(worker);
+            const std::lock_guard<std::mutex> lock(_mutex);
+            if (--_busy == 0)
+                _idle.notify_one();
+        }
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_PATCH_SCHEDULE_H
+#define VCG_CCDM_PATCH_SCHEDULE_H
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/parallel.h>
+#include <vcg/complex/algorithms/ccdm/remesh.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Patches of a mesh that can be worked on at the same time. Vertices are numbered along a space-filling
+/// curve, so a range of numbers is a patch of the surface.
+struct Patches {
+    static constexpr int Size = 1024;
+    static int Of(int v) { return v / Size; }
+    static int Count(int vertices) { return (vertices + Size - 1) / Size; }
+};
+
+/// The patch that holds all four vertices of an edge's two triangles; -1 if none does, or if the edge has
+/// one triangle only.
+inline int PatchOfHinge(const Remesh &r, Side s)
+{
+    const Side mate = r.mesh.Mate(s);
+    if (mate == NoSide)
+        return -1;
+    const int patch = Patches::Of(r.mesh.Opposite(s));
+    const bool inside = Patches::Of(r.mesh.Opposite(mate)) == patch && Patches::Of(r.mesh.Tail(s)) == patch &&
+                        Patches::Of(r.mesh.Head(s)) == patch;
+    return inside ? patch : -1;
+}
+
+/// Calls visit(first, last, chunk) for equal runs of [0, count), on several threads; `chunks(count)` of
+/// them.
+struct Chunks {
+    static constexpr int Size = 4096;
+    static int Count(int count) { return (count + Size - 1) / Size; }
+
+    template <class Visit>
+    static void For(Workers &workers, int count, Visit visit)
+    {
+        workers.For(Count(count), [&](int c, int) { visit(c * Size, std::min(count, (c + 1) * Size), c); });
+    }
+};
+
+/// Runs work on the vertices and edges of a remesh, patch by patch on several threads, in an order that
+/// does not depend on how many there are.
+class PatchSchedule
+{
+public:
+    PatchSchedule(const Remesh &remesh, Workers &workers) : _remesh(remesh), _workers(workers) {}
+
+    /// The edges have changed since the last call of ForVertices.
+    void Changed() { _valid = false; }
+
+    /// Calls work(vertex, worker) once for every vertex. It may read the star of the vertex and change the
+    /// vertex. First come the vertices inside the patches, all patches at a time; then those at their
+    /// borders, patches that touch each other at different times.
+    template <class Work>
+    void ForVertices(Work work)
+    {
+        FindBorders();
+        const auto run = [&](int patch, std::uint8_t border, int worker) {
+            const int end = std::min((patch + 1) * Patches::Size, _remesh.VertexCount());
+            for (int v = patch * Patches::Size; v < end; ++v)
+                if (_border[v].load(std::memory_order_relaxed) == border)
+                    work(v, worker);
+        };
+        _workers.For(Patches::Count(_remesh.VertexCount()), [&](int patch, int worker) { run(patch, 0, worker); });
+        for (const std::vector<int> &patches : _apart)
+            _workers.For(static_cast<int>(patches.size()), [&](int i, int worker) { run(patches[i], 1, worker); });
+    }
+
+    /// Calls flip(side) for the inner edges for which wanted(side) was true, both judged by the side in the
+    /// triangle of the lower number. `flip` may read the stars of the four vertices around the edge, and
+    /// change its two triangles.
+    template <class Wanted, class Flip>
+    void ForEdges(Wanted wanted, Flip flip)
+    {
+        const Triangulation &m = _remesh.mesh;
+        _list.resize(Chunks::Count(m.TriangleCount()));
+        Chunks::For(_workers, m.TriangleCount(), [&](int first, int last, int chunk) {
+            std::vector<Side> &list = _list[chunk];
+            list.clear();
+            for (int t = first; t < last; ++t)
+                for (int e = 0; e < 3; ++e) {
+                    const Side s = MakeSide(t, e);
+                    if (m.Mate(s) > s && wanted(s))
+                        list.push_back(s);
+                }
+        });
+        std::vector<std::vector<Side>> inside(Patches::Count(_remesh.VertexCount())), moved(inside.size());
+        std::vector<Side> rest;
+        for (const std::vector<Side> &list : _list)
+            for (const Side s : list) {
+                const int patch = PatchOfHinge(_remesh, s);
+                (patch >= 0 ? inside[patch] : rest).push_back(s);
+            }
+        _workers.For(static_cast<int>(inside.size()), [&](int patch, int) {
+            for (const Side s : inside[patch])
+                if (PatchOfHinge(_remesh, s) == patch)
+                    flip(s);
+                else
+                    moved[patch].push_back(s);
+        });
+        for (const std::vector<Side> &sides : moved)
+            rest.insert(rest.end(), sides.begin(), sides.end());
+        for (const Side s : rest)
+            flip(s);
+        Changed();
+    }
+
+private:
+    const Remesh &_remesh;
+    Workers &_workers;
+    bool _valid = false;
+    int _size = 0;
+    std::unique_ptr<std::atomic<std::uint8_t>[]> _border; // 1: has a neighbour in another patch
+    std::vector<std::vector<int>> _apart;                 // patches of each set have no edge between them
+    std::vector<std::vector<Side>> _list;
+
+    using Pair = std::pair<int, int>;
+
+    void FindBorders()
+    {
+        if (_valid)
+            return;
+        const int count = _remesh.VertexCount();
+        if (_size != count)
+            _border = std::make_unique<std::atomic<std::uint8_t>[]>(static_cast<std::size_t>(count));
+        _size = count;
+        Chunks::For(_workers, count, [&](int first, int last, int) {
+            for (int v = first; v < last; ++v)
+                _border[v].store(0, std::memory_order_relaxed);
+        });
+        const std::vector<Triangle> &triangle = _remesh.mesh.triangle;
+        const int triangles = _remesh.mesh.TriangleCount();
+        std::vector<std::vector<Pair>> touching(Chunks::Count(triangles));
+        Chunks::For(_workers, triangles, [&](int first, int last, int chunk) {
+            std::vector<Pair> &pairs = touching[chunk];
+            for (int t = first; t < last; ++t)
+                for (int e = 0; e < 3; ++e) {
+                    const int v = triangle[t].v[e], w = triangle[t].v[Next(e)];
+                    const int p = Patches::Of(v), q = Patches::Of(w);
+                    if (p == q)
+                        continue;
+                    _border[v].store(1, std::memory_order_relaxed);
+                    _border[w].store(1, std::memory_order_relaxed);
+                    pairs.emplace_back(std::min(p, q), std::max(p, q));
+                }
+            std::sort(pairs.begin(), pairs.end());
+            pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        });
+        std::vector<Pair> all;
+        for (const std::vector<Pair> &pairs : touching)
+            all.insert(all.end(), pairs.begin(), pairs.end());
+        Separate(Patches::Count(count), all);
+        _valid = true;
+    }
+
+    // Colours the patches so that no two that touch have the same colour, each with the first that is free.
+    void Separate(int patches, const std::vector<Pair> &touching)
+    {
+        std::vector<std::vector<int>> below(patches);
+        for (const auto &[p, q] : touching)
+            below[q].push_back(p);
+        std::vector<int> colour(patches, 0);
+        std::vector<char> taken;
+        _apart.clear();
+        for (int p = 0; p < patches; ++p) {
+            taken.assign(_apart.size() + 1, 0);
+            for (const int q : below[p])
+                taken[colour[q]] = 1;
+            colour[p] = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
+            if (colour[p] == static_cast<int>(_apart.size()))
+                _apart.emplace_back();
+            _apart[colour[p]].push_back(p);
+        }
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
