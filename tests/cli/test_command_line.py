@@ -58,6 +58,8 @@ def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
     first = run("a.ply")
     assert run("b.ply", cwd="/", env={**os.environ, "LC_ALL": "de_DE.UTF-8"}) == first
     assert run("c.ply", "--seed", 2) != first
+    for threads in (1, 2, 4):
+        assert run("d.ply", "--threads", threads) == first
 
 
 @pytest.mark.parametrize("extension", ["ply", "off", "obj", "stl", "PLY"])

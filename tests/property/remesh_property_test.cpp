@@ -193,6 +193,27 @@ TEST(Metamorphic, FarFromTheOriginAndTiny)
     EXPECT_NEAR(Measured(Remeshed(tiny, Parameters(c, 600, 1))).angleMinAvg, plain, 0.7);
 }
 
+TEST(Threads, GiveTheSameBytes)
+{
+    for (const std::size_t k : {std::size_t{1}, std::size_t{4}})
+        for (const auto optimizer : {vcg::ccdm::OptimizerKind::Accelerated, vcg::ccdm::OptimizerKind::Annealing}) {
+            const Case &c = Cases()[k];
+            Params p = Parameters(c, 6000, 1);
+            p.optimizer = optimizer;
+            p.globalIterations = 6;
+            p.threads = 1;
+            const MeshTables one = Remeshed(meshes::Tables(c.shape), p);
+            for (const int threads : {2, 4}) {
+                p.threads = threads;
+                const MeshTables more = Remeshed(meshes::Tables(c.shape), p);
+                ASSERT_EQ(more.position.size(), one.position.size());
+                for (std::size_t v = 0; v < one.position.size(); ++v)
+                    ASSERT_EQ(more.position[v], one.position[v]);
+                ASSERT_EQ(more.face, one.face);
+            }
+        }
+}
+
 TEST(VertexCounts, FromTooFewToFarMoreThanTheInput)
 {
     for (const int n : {4, 5, 8, 12, 20, 50, 1000, 10000}) {

@@ -2,6 +2,7 @@
 #ifndef VCG_CCDM_OPTIMIZER_H
 #define VCG_CCDM_OPTIMIZER_H
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
 #include <vcg/complex/algorithms/ccdm/polish.h>
+#include <vcg/complex/algorithms/ccdm/refinement.h>
 
 namespace vcg {
 namespace ccdm {
@@ -28,14 +30,15 @@ public:
     {
     }
 
-    /// Runs the optimiser that the parameters name. False when `progress` stopped it.
-    bool Run(const Progress &progress)
+    /// Runs the optimiser that the parameters name. `finer` are the vertex counts of the levels to come: the
+    /// accelerated optimiser refines the mesh to each in turn. False when `progress` stopped it.
+    bool Run(const std::vector<int> &finer, const Progress &progress)
     {
         switch (_params.optimizer) {
         case OptimizerKind::Annealing:
             return Anneal(progress);
         case OptimizerKind::Accelerated:
-            return Accelerate(progress);
+            return AccelerateByLevels(finer, progress);
         }
         return false;
     }
@@ -141,22 +144,48 @@ private:
         return true;
     }
 
+    // The whole budget for the coarsest level, a part of it for each that is refined from it.
+    bool AccelerateByLevels(const std::vector<int> &finer, const Progress &progress)
+    {
+        const int count = _params.globalIterations * _params.localIterations;
+        const int fine = static_cast<int>(std::lround(FineShare * count));
+        _report.energy.assign(1, Energy(_remesh, _workers));
+        // The work of a sweep is in proportion to the vertices.
+        double work = static_cast<double>(count) * _remesh.VertexCount(), done = 0;
+        for (const int vertices : finer)
+            work += static_cast<double>(fine) * vertices;
+        double share = static_cast<double>(count) * _remesh.VertexCount() / work;
+        if (!Accelerate(count, 0.5 * _params.lambda, finer.empty(), 0, 0.9 * share, progress))
+            return false;
+        for (std::size_t k = 0; k < finer.size(); ++k) {
+            Polish(_model, _remesh).Unfold(10);
+            Refinement refinement(_model, _remesh);
+            refinement.Run();
+            refinement.SplitLongest(finer[k] - _remesh.VertexCount());
+            Polish(_model, _remesh).Unfold(10);
+            refinement.Sort();
+            _schedule.Changed();
+            done = share;
+            share += static_cast<double>(fine) * finer[k] / work;
+            if (!Accelerate(fine, FineNoise * _params.lambda, k + 1 == finer.size(), 0.9 * done, 0.9 * share, progress))
+                return false;
+        }
+        return Settle(progress);
+    }
+
     // Momentum on the cell centroid, with noise that fades out: moves past the poor local optima where
-    // plain relocation stalls. Ends with relocations to the patch centroid, so that the result is a
-    // centroidal Delaunay mesh as the paper defines it.
-    bool Accelerate(const Progress &progress)
+    // plain relocation stalls. `begin` and `end`: its part of the progress.
+    bool Accelerate(int count, double noise, bool pin, double begin, double end, const Progress &progress)
     {
         const bool uniform = _model.density.uniform;
-        const int count = _params.globalIterations * _params.localIterations;
         std::vector<Point> last = _remesh.position;
         const HeavyBall<CellCentroid> pull = {
             {_remesh, uniform}, {{_remesh, uniform}}, 1.5, 0.6, _remesh.position, last};
         Flip();
-        _report.energy.assign(1, Energy(_remesh, _workers));
         for (int i = 0; i < count; ++i) {
-            const double noise = 0.5 * _params.lambda * (1 - i / (0.6 * count));
-            if (i % 3 == 0 && noise > 0) {
-                const Perturbation perturb{noise, _random.Bits()};
+            const double size = noise * (1 - i / (0.6 * count));
+            if (i % 3 == 0 && size > 0) {
+                const Perturbation perturb{size, _random.Bits()};
                 Sweep([&](const LocalStar &star, int v) { return Point(pull(star, v) + perturb(star, v)); });
             } else {
                 Sweep(pull);
@@ -166,13 +195,20 @@ private:
                 _report.energy.push_back(Energy(_remesh, _workers));
                 ++_report.accepted; // no state is taken back
             }
-            if (i == count * 4 / 5 || i == count * 9 / 10)
+            if (pin && (i == count * 4 / 5 || i == count * 9 / 10))
                 PinExtremes();
-            if (!progress(0.9 * (i + 1) / count))
+            if (!progress(begin + (end - begin) * (i + 1) / count))
                 return false;
         }
+        return true;
+    }
+
+    // Ends with relocations to the patch centroid, so that the result is a centroidal Delaunay mesh as the
+    // paper defines it, and with the polish of the angles.
+    bool Settle(const Progress &progress)
+    {
         for (int i = 0; i < ClosingRelocations; ++i) {
-            Sweep(PatchCentroid{_remesh, uniform});
+            Sweep(PatchCentroid{_remesh, _model.density.uniform});
             Flip();
         }
         AnglePolish(_model, _remesh, _workers).Run(PolishRounds);
@@ -180,6 +216,8 @@ private:
         return progress(1);
     }
 
+    // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time.
+    static constexpr double FineShare = 0.5, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 14;
 };

@@ -44,7 +44,7 @@ struct Params {
     /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
     /// Number of perturb-optimise rounds, the paper's NG; at least 0. The accelerated optimiser does NG * NL
-    /// relocations.
+    /// relocations; where it starts from a coarse level, that many there and half as many at full resolution.
     int globalIterations = 40;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
     int localIterations = 3;

@@ -77,13 +77,19 @@ private:
         return true;
     }
 
-    // At a handful of vertices on a curved surface the momentum can fold what annealing does not, and no
-    // placement at all may be free of folds (eight vertices on a round torus): then a few more are taken.
+    // From the attempt that makes the best mesh to the one that stands most. At a handful of vertices on a
+    // curved surface the momentum can fold what annealing does not, and no placement at all may be free of
+    // folds (eight vertices on a round torus): then a few more are taken.
     bool AttemptAll(Model &model, Remesh &remesh)
     {
         Params params = _params;
+        int levels = params.optimizer == OptimizerKind::Accelerated ? Levels(model, params.vertexCount) : 0;
         for (;;) {
-            if (Attempt(model, params, remesh)) {
+            const bool passed = Attempt(model, params, levels, remesh);
+            if (passed && levels > 0 && SmallestFreeAngle(remesh) < MinAngle(params) - AngleSlack &&
+                !SecondAttempt(model, params, remesh))
+                return false;
+            if (passed) {
                 CountExtra(model, remesh, params.vertexCount);
                 return true;
             }
@@ -91,7 +97,9 @@ private:
                 return false;
             const int got = remesh.VertexCount();
             remesh = Remesh();
-            if (params.optimizer != OptimizerKind::Annealing) {
+            if (levels > 0) {
+                levels = 0;
+            } else if (params.optimizer != OptimizerKind::Annealing) {
                 _report.warnings.push_back("annealed with random samples, as another attempt failed: " +
                                            _report.message);
                 params.optimizer = OptimizerKind::Annealing;
@@ -110,12 +118,47 @@ private:
         }
     }
 
+    // Without the coarse level, which can lose thin parts: the result is taken if its smallest angle is the
+    // larger one. False when it was cancelled.
+    bool SecondAttempt(Model &model, const Params &params, Remesh &remesh)
+    {
+        Report report = _report;
+        Remesh other;
+        const bool passed = Attempt(model, params, 0, other);
+        if (passed && SmallestFreeAngle(other) > SmallestFreeAngle(remesh)) {
+            remesh = std::move(other);
+            return true;
+        }
+        const Status status = _report.status;
+        std::swap(report, _report);
+        _report.seconds = report.seconds;
+        if (passed || status == Status::CheckFailed)
+            return true;
+        return Fail(status, report.message);
+    }
+
+    // In degrees, of the triangles that no feature touches.
+    static double SmallestFreeAngle(const Remesh &remesh)
+    {
+        double least = Pi;
+        for (const Triangle &T : remesh.mesh.triangle) {
+            bool free = true;
+            for (const int v : T.v)
+                free = free && remesh.place[v].kind == VertexKind::Free;
+            if (free)
+                least = std::min(
+                    least, SmallestAngle(remesh.position[T.v[0]], remesh.position[T.v[1]], remesh.position[T.v[2]]));
+        }
+        return least * 180 / Pi;
+    }
+
     // Samples, builds, optimises and checks. False when it was cancelled or the check failed.
-    bool Attempt(const Model &model, const Params &params, Remesh &remesh)
+    bool Attempt(Model &model, const Params &params, int levels, Remesh &remesh)
     {
         if (!Begin("sampling", 6, 8))
             return false;
-        const SampleSet samples = Sample(model, params);
+        std::vector<int> finer;
+        const SampleSet samples = Sample(model, params, levels, finer);
 
         if (!Begin("building the initial mesh", 8, 20))
             return false;
@@ -126,7 +169,7 @@ private:
             return false;
         _report.accepted = 0;
         Optimizer optimizer(model, params, remesh, _report, _workers);
-        if (!optimizer.Run([this](double x) { return Advance(x); }))
+        if (!optimizer.Run(finer, [this](double x) { return Advance(x); }))
             return false;
 
         if (!Begin("polishing", 92, 97))
@@ -219,13 +262,25 @@ private:
         return true;
     }
 
-    SampleSet Sample(const Model &model, const Params &params)
+    // The samples of the coarsest level, and the vertex counts of those that are refined from it.
+    SampleSet Sample(Model &model, const Params &params, int levels, std::vector<int> &finer)
     {
+        const double scale = std::ldexp(1.0, levels);
+        for (double &h : model.density.spacing)
+            h *= scale;
         SampleSet samples;
         Random random(_params.seed);
         samples.onCurves = SampleCurves(model.surface, model.features, model.density);
         const int featureSamples = static_cast<int>(samples.onCurves.size() + model.features.corner.size());
-        const int rest = std::max(0, params.vertexCount - featureSamples);
+        finer.clear();
+        int coarse = params.vertexCount;
+        int boundary = BoundarySegments(model, samples.onCurves);
+        for (int k = 0; k < levels; ++k) {
+            finer.insert(finer.begin(), coarse);
+            // Refined, V vertices become 4 V - 3 chi - B.
+            coarse = (coarse + 3 * _report.inputTopology.euler + (boundary << (levels - 1 - k))) / 4;
+        }
+        const int rest = std::max(0, coarse - featureSamples);
         switch (params.sampler) {
         case SamplerKind::Random:
             samples.onFaces = SampleFaces(model.surface, model.density, rest, random);
@@ -236,7 +291,42 @@ private:
                     .Run(samples.onCurves, rest, random);
             break;
         }
+        for (double &h : model.density.spacing)
+            h /= scale;
         return samples;
+    }
+
+    // How many times the resolution is halved before the mesh is built. Measured: two levels are hardly
+    // faster than one, and the few irregular vertices that come out then strain the mesh.
+    int Levels(const Model &model, int vertices) const
+    {
+        int levels = vertices / 4 >= LeastCoarse ? 1 : 0;
+        // Refined, a curve has an even number of edges, which must not get much too short; creases are better met at
+        // full resolution.
+        for (const FeatureCurve &c : model.features.curve) {
+            if (model.surface.mesh.Mate(c.side.front()) != NoSide)
+                return 0;
+            double length = 0;
+            for (int k = 0; k < c.Segments(); ++k)
+                length += 2 * (c.arc[k + 1] - c.arc[k]) /
+                          (model.density.spacing[c.vertex[k]] + model.density.spacing[c.vertex[k + 1]]);
+            while (levels > 0 && length < std::ldexp(1.5, levels))
+                --levels;
+        }
+        return levels;
+    }
+
+    // The number of boundary edges that the samples make.
+    static int BoundarySegments(const Model &model, const std::vector<CurveSample> &samples)
+    {
+        const std::vector<FeatureCurve> &curve = model.features.curve;
+        const auto boundary = [&](const FeatureCurve &c) { return model.surface.mesh.Mate(c.side.front()) == NoSide; };
+        int count = 0;
+        for (const FeatureCurve &c : curve)
+            count += boundary(c) && !c.closed;
+        for (const CurveSample &s : samples)
+            count += boundary(curve[s.curve]);
+        return count;
     }
 
     void CountExtra(const Model &model, const Remesh &remesh, int aimedAt)
@@ -325,7 +415,10 @@ private:
     }
 
     /// A curve that turns by more than this within one spacing has a corner there, in degrees.
-    static constexpr double CornerAngle = 50;
+    static constexpr double CornerAngle = 40;
+    static constexpr double AngleSlack = 0.05; // degrees
+    /// Fewest vertices of a mesh that is to be refined.
+    static constexpr int LeastCoarse = 1000;
     /// Counts below this may be raised where fewer vertices cannot but fold.
     static constexpr int MostForGrowth = 200;
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the

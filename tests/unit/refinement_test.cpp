@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/ccdm/refinement.h>
+
+#include <gtest/gtest.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using namespace vcg::ccdm;
+
+TEST(Refinement, QuartersEveryTriangleOnTheSurface)
+{
+    for (const shapes::Shape &s :
+         {shapes::Bumpy(2), shapes::KleinBottle(16, 8), shapes::Plate(12), shapes::CadPart()}) {
+        const Model model = meshes::MakeModel(s, 300, 40);
+        Remesh r = meshes::AsRemesh(model);
+        const TopologyCounts before = VerifyTriangulation(r.mesh).counts;
+        Refinement(model, r).Run();
+        const Verification v = VerifyTriangulation(r.mesh);
+        EXPECT_EQ(v.fault, "");
+        EXPECT_TRUE(v.counts.SameTypeAs(before));
+        EXPECT_EQ(v.counts.faces, 4 * before.faces);
+        EXPECT_EQ(v.counts.vertices, before.vertices + before.edges);
+        for (int k = 0; k < r.VertexCount(); ++k)
+            EXPECT_LT(model.surface.NearestOn(r.place[k].face, r.position[k]).squaredDistance, 1e-20);
+    }
+}
+
+TEST(Refinement, HalvesFeatureEdges)
+{
+    const Model model = meshes::MakeModel(shapes::Box(1, 2, 3), 8, 40);
+    Remesh r = meshes::AsRemesh(model);
+    Refinement(model, r).Run();
+    int constrained = 0;
+    for (int t = 0; t < r.mesh.TriangleCount(); ++t)
+        for (int e = 0; e < 3; ++e)
+            constrained += r.mesh.Constrained(MakeSide(t, e));
+    EXPECT_EQ(constrained, 2 * 24) << "two sides of the twelve edges' halves";
+}
+
+TEST(Refinement, SplitsAndSorts)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Refinement refinement(model, r);
+    refinement.SplitLongest(3);
+    EXPECT_EQ(r.VertexCount(), 645);
+    refinement.Sort();
+    EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
+    EXPECT_EQ(VerifyTriangulation(r.mesh).counts.euler, 2);
+}
+
+} // namespace
