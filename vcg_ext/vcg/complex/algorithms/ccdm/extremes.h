@@ -233,6 +233,10 @@ private:
                 return -1;
         const Point old = _remesh.position[v];
         const int oldFace = _remesh.place[v].face;
+        // A tip behind a crease is not for this vertex.
+        const Foot reached = _model.surface.Project(oldFace, old, target, 0).second;
+        if (reached.squaredDistance > 1e-12 * SquaredNorm(target - old))
+            return -1;
         const Shape before = Look(v);
         // All the way to the tip, or part of it.
         for (const double way : {1.0, 0.75, 0.5}) {
