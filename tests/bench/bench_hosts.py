@@ -88,7 +88,7 @@ def main():
                 ours, theirs, memory = [], [], 0
                 for _ in range(RUNS):
                     cpu, megabytes = cpu_seconds([PROGRAM, source, os.path.join(folder, "o.ply"), "-n", str(n), "--feature-angle",
-                                                  str(angle), "--optimizer", "annealing", "--sampler", "random", "--quiet"])
+                                                  str(angle), "--optimizer", "annealing", "--sampler", "random", "--threads", "1", "--quiet"])
                     ours.append(cpu)
                     memory = max(memory, megabytes)
                     theirs.append(explicit(source, length, diagonal, angle, folder, name)[0])

@@ -29,7 +29,8 @@ def main():
     for n in SIZES:
         report = os.path.join(OUT, "r.json")
         rounds = max(8, min(40, 4000000 // n))
-        subprocess.run([PROGRAM, source, os.path.join(OUT, "o.ply"), "-n", str(n), "--feature-angle", "180", "--optimizer", "annealing", "--sampler", "random",
+        subprocess.run([PROGRAM, source, os.path.join(OUT, "o.ply"), "-n", str(n), "--feature-angle", "180",
+                        "--optimizer", "annealing", "--sampler", "random", "--threads", "1",
                         "--global-iterations", str(rounds), "--report", report, "--quiet"], check=True)
         with open(report, encoding="utf-8") as text:
             data = json.load(text)
