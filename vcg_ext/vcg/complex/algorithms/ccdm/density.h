@@ -112,17 +112,23 @@ struct DensityField {
     bool uniform = true;
 };
 
+/// Integral over the surface of a field that is linear on each face.
+inline double Integral(const ReferenceSurface &surface, const std::vector<double> &field)
+{
+    double integral = 0;
+    for (int t = 0; t < surface.FaceCount(); ++t) {
+        const Triangle &T = surface.mesh.triangle[t];
+        integral += Norm(surface.AreaVector(t)) * (field[T.v[0]] + field[T.v[1]] + field[T.v[2]]) / 3;
+    }
+    return integral;
+}
+
 /// Raises phi where the spacing h that follows from it would grow faster than `gradation` times the way
 /// along the edges of the surface: neighbouring triangles of well graded meshes differ by little.
 inline void LimitGradation(const ReferenceSurface &surface, int vertices, double gradation, std::vector<double> &phi)
 {
     const Triangulation &m = surface.mesh;
-    double integral = 0;
-    for (int t = 0; t < surface.FaceCount(); ++t) {
-        const Triangle &T = m.triangle[t];
-        integral += Norm(surface.AreaVector(t)) * (phi[T.v[0]] + phi[T.v[1]] + phi[T.v[2]]) / 3;
-    }
-    const double scale = 2 * integral / (std::sqrt(3.0) * vertices);
+    const double scale = 2 * Integral(surface, phi) / (std::sqrt(3.0) * vertices);
     using Entry = std::pair<double, int>; // spacing, vertex
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     std::vector<double> spacing(phi.size());
@@ -157,11 +163,7 @@ inline DensityField MakeDensityField(const ReferenceSurface &surface, std::vecto
     DensityField d;
     d.uniform = uniform;
     d.phi = std::move(phi);
-    double integral = 0;
-    for (int t = 0; t < surface.FaceCount(); ++t) {
-        const Triangle &T = surface.mesh.triangle[t];
-        integral += Norm(surface.AreaVector(t)) * (d.phi[T.v[0]] + d.phi[T.v[1]] + d.phi[T.v[2]]) / 3;
-    }
+    const double integral = Integral(surface, d.phi);
     d.rho.resize(d.phi.size());
     d.spacing.resize(d.phi.size());
     for (std::size_t v = 0; v < d.phi.size(); ++v) {

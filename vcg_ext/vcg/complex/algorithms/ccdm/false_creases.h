@@ -73,12 +73,7 @@ private:
     bool Marked(Side s) const { return !_marked.empty() && ((_marked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0; }
     Point Middle(Side s) const { return (_surface.position[_mesh.Tail(s)] + _surface.position[_mesh.Head(s)]) / 2; }
 
-    double Turn(Side s) const
-    {
-        const Point &one = _normal[SideTriangle(s)];
-        const Point two = _normal[SideTriangle(_mesh.Mate(s))] * (_mesh.Coherent(s) ? 1.0 : -1.0);
-        return std::atan2(Norm(Cross(one, two)), Dot(one, two));
-    }
+    double Turn(Side s) const { return TurnBetween(_normal[SideTriangle(s)], NormalAcross(_mesh, _normal, s)); }
 
     // The mean turn of the edges that are no creases, around each vertex.
     std::vector<double> Roughness() const
@@ -124,10 +119,8 @@ private:
         const double reach = Radius * _spacing[_mesh.Tail(s)], reach2 = reach * reach;
         const int first = SideTriangle(s);
         const Point edge = _surface.position[_mesh.Head(s)] - _surface.position[_mesh.Tail(s)];
-        const Point one = _normal[first];
-        const Point two = _normal[SideTriangle(_mesh.Mate(s))] * (_mesh.Coherent(s) ? 1.0 : -1.0);
         // Across the edge, in the plane between the two faces.
-        Point across = Cross(edge, one + two);
+        Point across = Cross(edge, _normal[first] + NormalAcross(_mesh, _normal, s));
         const Point apex = _surface.position[_mesh.Opposite(s)] - middle;
         if (Dot(across, apex) < 0)
             across = -across;
@@ -153,7 +146,7 @@ private:
                 _seen.push_back({SideTriangle(mate), _mesh.Coherent(MakeSide(face, e)) ? sign : -sign});
             }
         }
-        return std::atan2(Norm(Cross(mean[0], mean[1])), Dot(mean[0], mean[1])) > _turn;
+        return TurnBetween(mean[0], mean[1]) > _turn;
     }
 
     int DropShort(const std::vector<Side> &crease)

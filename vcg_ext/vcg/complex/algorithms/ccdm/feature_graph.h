@@ -92,6 +92,19 @@ inline std::vector<Point> FaceNormals(const ReferenceSurface &surface)
     return normal;
 }
 
+/// Normal of the face across a side, turned to the orientation of the side's own face.
+inline Point NormalAcross(const Triangulation &m, const std::vector<Point> &normal, Side s)
+{
+    const Point &other = normal[SideTriangle(m.Mate(s))];
+    return m.Coherent(s) ? other : -other;
+}
+
+/// Angle between two vectors, in radians.
+inline double TurnBetween(const Point &a, const Point &b)
+{
+    return std::atan2(Norm(Cross(a, b)), Dot(a, b));
+}
+
 /// Marks as features the boundary edges, the edges whose faces turn by more than `degrees`, and those
 /// in `marked`.
 inline void MarkFeatures(ReferenceSurface &surface, double degrees, const SideMarks &marked)
@@ -104,9 +117,7 @@ inline void MarkFeatures(ReferenceSurface &surface, double degrees, const SideMa
             const Side s = MakeSide(t, e), mate = m.Mate(s);
             bool feature = mate == NoSide || (!marked.empty() && ((marked[t] >> e) & 1));
             if (!feature && mate > s && degrees < 180) {
-                const Point &a = normal[t];
-                const Point b = m.Coherent(s) ? normal[SideTriangle(mate)] : -normal[SideTriangle(mate)];
-                feature = std::atan2(Norm(Cross(a, b)), Dot(a, b)) > limit;
+                feature = TurnBetween(normal[t], NormalAcross(m, normal, s)) > limit;
             }
             if (feature)
                 m.SetConstrained(s, true);

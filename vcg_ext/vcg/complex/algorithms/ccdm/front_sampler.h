@@ -206,13 +206,7 @@ private:
         std::vector<SurfacePoint> found;
         for (const int v : _features.corner)
             Keep(buckets, _surface.position[v], Point(0, 0, 0), -1, _scale * _density.spacing[v]);
-        for (const CurveSample &c : onCurves) {
-            const FeatureCurve &curve = _features.curve[c.curve];
-            const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
-            const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
-            const Point p = a + (b - a) * curve.Fraction(k, c.s);
-            Keep(buckets, p, Point(0, 0, 0), -1, _scale * _density.spacing[curve.vertex[k]]);
-        }
+        KeepAll(buckets, onCurves);
         for (const CurveSample &c : onCurves)
             ProposeFromCurve(buckets, c, found);
         std::size_t next = 0;
@@ -240,6 +234,17 @@ private:
     {
         buckets.Add(p, spacing);
         _keeper.push_back({normal, face});
+    }
+
+    void KeepAll(PointBuckets &buckets, const std::vector<CurveSample> &onCurves)
+    {
+        for (const CurveSample &c : onCurves) {
+            const FeatureCurve &curve = _features.curve[c.curve];
+            const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
+            const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
+            const Point p = a + (b - a) * curve.Fraction(k, c.s);
+            Keep(buckets, p, Point(0, 0, 0), -1, _scale * _density.spacing[curve.vertex[k]]);
+        }
     }
 
     // Some direction in the plane of a face.
@@ -414,13 +419,7 @@ private:
         _scale = _bestScale;
         PointBuckets buckets(_base, static_cast<std::size_t>(count) + onCurves.size());
         _keeper.clear();
-        for (const CurveSample &c : onCurves) {
-            const FeatureCurve &curve = _features.curve[c.curve];
-            const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
-            const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
-            Keep(buckets, a + (b - a) * curve.Fraction(k, c.s), Point(0, 0, 0), -1,
-                 _scale * _density.spacing[curve.vertex[k]]);
-        }
+        KeepAll(buckets, onCurves);
         for (const SurfacePoint &s : samples)
             Keep(buckets, _surface.At(s), Normalized(_surface.AreaVector(s.face)), s.face, Spacing(s));
         for (double radius = 0.68; static_cast<int>(samples.size()) < count; radius *= 0.93) {

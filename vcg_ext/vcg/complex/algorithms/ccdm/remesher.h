@@ -91,6 +91,7 @@ private:
                 return false;
             if (passed) {
                 CountExtra(model, remesh, params.vertexCount);
+                WarnOfFolds();
                 return true;
             }
             if (_report.status != Status::CheckFailed)
@@ -343,6 +344,15 @@ private:
                                    std::to_string(onFeatures) + " vertices) need them");
     }
 
+    // Once the mesh to hand out is chosen: an attempt that was thrown away says nothing about it.
+    void WarnOfFolds()
+    {
+        if (_report.foldedEdges > 0)
+            _report.warnings.push_back(std::to_string(_report.foldedEdges) +
+                                       " edges of the result are sharper than 150 degrees, as the input is there at "
+                                       "this number of vertices");
+    }
+
     bool Check(const Model &model, const Remesh &remesh)
     {
         const ResultCheck check(model, remesh);
@@ -353,10 +363,6 @@ private:
             return Fail(Status::CheckFailed, "the result was thrown away: " + check.fault);
         if (!_report.topologyPreserved)
             return Fail(Status::CheckFailed, "the result was thrown away: its topology is not the input's");
-        if (check.foldedEdges > 0)
-            _report.warnings.push_back(std::to_string(check.foldedEdges) +
-                                       " edges of the result are sharper than 150 degrees, as the input is there at "
-                                       "this number of vertices");
         if (remesh.VertexCount() < _params.vertexCount)
             return Fail(Status::CheckFailed, "the result was thrown away: it has only " +
                                                  std::to_string(remesh.VertexCount()) + " vertices");
