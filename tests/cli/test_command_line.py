@@ -16,7 +16,7 @@ FAST = ("--global-iterations", "3", "--quiet")
 def test_help_names_every_option(remesh):
     text = remesh("--help").stdout
     for option in ("--vertices", "--feature-angle", "--lambda", "--global-iterations", "--local-iterations", "--density",
-                   "--density-exponent", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
+                   "--density-exponent", "--approximation", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
         assert option in text
     assert remesh("--version").stdout.startswith("ccdm_remesh ")
 
@@ -60,6 +60,17 @@ def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
     assert run("c.ply", "--seed", 2) != first
     for threads in (1, 2, 4):
         assert run("d.ply", "--threads", threads) == first
+
+
+def test_more_approximation_comes_closer(remesh, samples, tmp_path):
+    def rms(weight):
+        report = tmp_path / "report.json"
+        assert remesh(f"{samples}/bust.ply", tmp_path / "out.ply", "-n", 3000, *FAST, "--approximation", weight,
+                      "--report", report).returncode == 0
+        data = json.loads(report.read_text())
+        assert data["parameters"]["approximation"] == weight
+        return data["result"]["rms"]
+    assert rms(0) >= rms(0.5) > 1.1 * rms(1)
 
 
 @pytest.mark.parametrize("extension", ["ply", "off", "obj", "stl", "PLY"])

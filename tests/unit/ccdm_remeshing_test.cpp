@@ -106,6 +106,8 @@ TEST(CCDMRemeshing, RefusesBadParametersAndLeavesTheMeshAlone)
     EXPECT_TRUE(refused([](Params &p) { p.globalIterations = -1; }));
     EXPECT_TRUE(refused([](Params &p) { p.localIterations = 0; }));
     EXPECT_TRUE(refused([](Params &p) { p.densityExponent = -1; }));
+    EXPECT_TRUE(refused([](Params &p) { p.approximation = 1.01; }));
+    EXPECT_TRUE(refused([](Params &p) { p.approximation = std::nan(""); }));
 }
 
 int calls = 0, last = 0, stopAt = 0;

@@ -83,7 +83,8 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     });
     const double off = Norm(r.position[tip] - model.surface.position[tip]);
     ASSERT_GT(off, 0);
-    const std::vector<int> captured = ExtremeCapture(model, r).Run(5, 10);
+    Probes probes(model, r, meshes::Alone());
+    const std::vector<int> captured = ExtremeCapture(model, r, probes).Run(5, 10);
     ASSERT_EQ(captured.size(), 1U);
     EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
 }

@@ -62,6 +62,11 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     app.add_option("--min-angle", p.minAngle,
                    "smallest angle that the closing polish aims at, degrees, 0 to 45 (default: 40; with annealing 34)")
         ->check(CLI::Range(0.0, 45.0));
+    app.add_option("--approximation", p.approximation,
+                   "how much closeness to the input counts against the angles, 0 to 1; above 0.5 the vertices leave "
+                   "the surface by up to the offset that makes the squared distance least")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
     app.add_option("--seed", p.seed, "of the random generator, 0 to 4294967295")->capture_default_str();
     app.add_option("--threads", p.threads, "0 (default): as many as there are cores; the result is the same for any")
         ->check(CLI::Range(0, 256));

@@ -51,6 +51,7 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["density"] = NameOf(p.density);
     j["density_exponent"] = DensityExponent(p);
     j["min_angle"] = MinAngle(p);
+    j["approximation"] = p.approximation;
     j["optimizer"] = NameOf(p.optimizer);
     j["sampler"] = NameOf(p.sampler);
     j["seed"] = p.seed;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include <vcg/complex/algorithms/ccdm/angle_polish.h>
+#include <vcg/complex/algorithms/ccdm/approximation.h>
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
@@ -25,7 +25,8 @@ public:
 
     Optimizer(const Model &model, const Params &params, Remesh &remesh, Report &report, Workers &workers)
         : _model(model), _params(params), _remesh(remesh), _report(report), _workers(workers),
-          _schedule(remesh, workers), _relocator(workers.Count(), Relocator(model, remesh)), _flipper(workers),
+          _schedule(remesh, workers), _probes(model, remesh, workers),
+          _relocator(workers.Count(), Relocator(model, remesh)), _flipper(workers),
           _random(params.seed ^ 0x6f7074696d697a65ULL)
     {
     }
@@ -43,14 +44,16 @@ public:
         return false;
     }
 
-    /// After Run: puts vertices on tips that are still cut off, opens folds, brings back triangles that
-    /// stray from the surface, and raises the smallest angles.
+    /// After Run: puts vertices on tips that are cut off, opens folds, brings the parts that stray closer to
+    /// the surface, and raises the smallest angles.
     void Close()
     {
-        ReleaseExtremes();
+        ExtremeCapture(_model, _remesh, _probes).Run(5, 30);
         Polish polish(_model, _remesh);
         polish.Unfold(10);
-        polish.Approach(5, 30, 5);
+        // Measured: the default costs hardly any angle; 1 takes up to a degree.
+        const double weight = 0.1 * _params.approximation * _params.approximation;
+        Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
         polish.RaiseAngles(MinAngle(_params), 0.1, 20);
         polish.RaiseAngles(MinAngle(_params), 0.2, 20);
         polish.RaiseAngles(30, 0.3, 20);
@@ -64,10 +67,10 @@ private:
     Report &_report;
     Workers &_workers;
     PatchSchedule _schedule;
+    Probes _probes;
     std::vector<Relocator> _relocator; // one for each worker
     DelaunayFlipper _flipper;
     Random _random;
-    std::vector<int> _pinned; // vertices held on a tip of the input
 
     void Flip()
     {
@@ -94,23 +97,6 @@ private:
         Flip();
     }
 
-    // Vertices that are put on a tip stay there while the others settle around them.
-    void PinExtremes()
-    {
-        for (const int v : ExtremeCapture(_model, _remesh).Run(5, 24)) {
-            _remesh.place[v].kind = VertexKind::Corner;
-            _pinned.push_back(v);
-        }
-    }
-
-    void ReleaseExtremes()
-    {
-        for (const int v : _pinned)
-            _remesh.place[v].kind = VertexKind::Free;
-        _pinned.clear();
-        ExtremeCapture(_model, _remesh).Run(5, 30);
-    }
-
     // Section 3.4: perturb, optimise locally, keep the state only if it has the lower energy.
     bool Anneal(const Progress &progress)
     {
@@ -119,12 +105,6 @@ private:
         double bestEnergy = Energy(_remesh, _workers);
         _report.energy.assign(1, bestEnergy);
         for (int i = 0; i < _params.globalIterations; ++i) {
-            const int left = _params.globalIterations - i;
-            if (left == 9 || left == 6 || left == 3) {
-                PinExtremes();
-                best = _remesh;
-                bestEnergy = Energy(_remesh, _workers);
-            }
             Sweep(Perturbation{_params.lambda, _random.Bits()});
             OptimizeLocally();
             const double energy = Energy(_remesh, _workers);
@@ -155,7 +135,7 @@ private:
         for (const int vertices : finer)
             work += static_cast<double>(fine) * vertices;
         double share = static_cast<double>(count) * _remesh.VertexCount() / work;
-        if (!Accelerate(count, 0.5 * _params.lambda, finer.empty(), 0, 0.9 * share, progress))
+        if (!Accelerate(count, 0.5 * _params.lambda, 0, 0.9 * share, progress))
             return false;
         for (std::size_t k = 0; k < finer.size(); ++k) {
             Polish(_model, _remesh).Unfold(10);
@@ -167,7 +147,7 @@ private:
             _schedule.Changed();
             done = share;
             share += static_cast<double>(fine) * finer[k] / work;
-            if (!Accelerate(fine, FineNoise * _params.lambda, k + 1 == finer.size(), 0.9 * done, 0.9 * share, progress))
+            if (!Accelerate(fine, FineNoise * _params.lambda, 0.9 * done, 0.9 * share, progress))
                 return false;
         }
         return Settle(progress);
@@ -175,7 +155,7 @@ private:
 
     // Momentum on the cell centroid, with noise that fades out: moves past the poor local optima where
     // plain relocation stalls. `begin` and `end`: its part of the progress.
-    bool Accelerate(int count, double noise, bool pin, double begin, double end, const Progress &progress)
+    bool Accelerate(int count, double noise, double begin, double end, const Progress &progress)
     {
         const bool uniform = _model.density.uniform;
         std::vector<Point> last = _remesh.position;
@@ -195,8 +175,6 @@ private:
                 _report.energy.push_back(Energy(_remesh, _workers));
                 ++_report.accepted; // no state is taken back
             }
-            if (pin && (i == count * 4 / 5 || i == count * 9 / 10))
-                PinExtremes();
             if (!progress(begin + (end - begin) * (i + 1) / count))
                 return false;
         }
@@ -220,6 +198,7 @@ private:
     static constexpr double FineShare = 0.5, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 14;
+    static constexpr int ApproximationRounds = 6;
 };
 
 } // namespace ccdm

@@ -57,6 +57,10 @@ struct Params {
     /// Smallest angle that the closing polish aims at, in degrees; range [0, 45]. Unset: 40 with the
     /// accelerated optimiser, 34 with annealing.
     std::optional<double> minAngle;
+    /// How much closeness to the input counts against the angles in the closing steps, range [0, 1]. The default
+    /// costs hardly any angle. Above 0.5 the vertices also leave the surface, at 1 by the offset along their
+    /// normals that makes the squared distance least.
+    double approximation = 0.25;
     /// Seed of the only random generator; equal input, parameters and seed give equal results.
     std::uint32_t seed = 1;
     /// Number of threads, at least 0; 0: as many as the machine has cores. The result is the same for any.

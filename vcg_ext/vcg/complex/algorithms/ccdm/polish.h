@@ -89,43 +89,6 @@ public:
         return static_cast<int>(folded.size());
     }
 
-    /// Brings back the triangles that bridge a notch or cut through a thin part: those whose centroid or
-    /// sides lie further from the surface than `outlier` times the root mean square over the mesh, and
-    /// than 0.6 times the largest such distance. No angle may fall under `degrees` that was not under it. Returns the
-    /// number of triangles left so.
-    int Approach(double outlier, double degrees, int rounds)
-    {
-        const double cosine = std::cos(degrees * Pi / 180);
-        const int count = _remesh.mesh.TriangleCount();
-        std::vector<int> far;
-        double limit = 0;
-        for (int round = 0;; ++round) {
-            std::vector<double> distance(count);
-            double sum = 0, largest = 0;
-            for (int t = 0; t < count; ++t) {
-                sum += distance[t] = SquaredDistance(t, 0.3);
-                if (distance[t] > limit) {
-                    distance[t] = SquaredDistance(t, 0);
-                    largest = std::max(largest, distance[t]);
-                }
-            }
-            if (round == 0)
-                limit = std::max(outlier * outlier * sum / std::max(count, 1), 0.36 * largest);
-            far.clear();
-            for (int t = 0; t < count; ++t)
-                if (distance[t] > limit)
-                    far.push_back(t);
-            if (far.empty() || round == rounds)
-                break;
-            bool improved = false;
-            for (const int t : far)
-                improved = BringBack(t, cosine) || improved;
-            if (!improved)
-                break;
-        }
-        return static_cast<int>(far.size());
-    }
-
 private:
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
@@ -299,72 +262,6 @@ private:
             for (int k = 0; k < 6; ++k)
                 for (int repeat = 0; repeat < 4 && _relocator.TryShift(v, size, k * Pi / 3, score); ++repeat)
                     improved = true;
-        return improved;
-    }
-
-    // With a `slack` above 0 an upper bound, found faster.
-    double SquaredDistance(int t, double slack) const
-    {
-        const Triangle &T = _remesh.mesh.triangle[t];
-        const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
-        return std::max({SquaredDistanceNear(_model, _remesh, T.v[0], (a + b + c) / 3, slack),
-                         SquaredDistanceNear(_model, _remesh, T.v[0], (a + b) / 2, slack),
-                         SquaredDistanceNear(_model, _remesh, T.v[1], (b + c) / 2, slack),
-                         SquaredDistanceNear(_model, _remesh, T.v[2], (c + a) / 2, slack)});
-    }
-
-    // Flips the side that strays furthest if the other diagonal is nearer; else shifts the corners.
-    bool BringBack(int t, double cosine)
-    {
-        for (int e = 0; e < 3; ++e) {
-            const Side s = MakeSide(t, e);
-            if (_remesh.mesh.Mate(s) == NoSide)
-                continue;
-            const Hinge h(_remesh, s);
-            const double now = SquaredDistanceNear(_model, _remesh, _remesh.mesh.Tail(s), (h.p + h.q) / 2);
-            const double then = SquaredDistanceNear(_model, _remesh, h.apexA, (h.a + h.b) / 2);
-            const double before = std::max(LargestCosine(h.a, h.p, h.q), LargestCosine(h.b, h.p, h.q));
-            const double after = std::max(LargestCosine(h.a, h.p, h.b), LargestCosine(h.a, h.b, h.q));
-            if (then < 0.5 * now && after < std::max(before, cosine) && MayFlip(_remesh, s, h)) {
-                _remesh.mesh.Flip(s);
-                return true;
-            }
-        }
-        const Triangle T = _remesh.mesh.triangle[t];
-        bool improved = false;
-        for (const int v : T.v)
-            improved = BringVertex(v, cosine) || improved;
-        return improved;
-    }
-
-    bool BringVertex(int v, double cosine)
-    {
-        if (_remesh.place[v].kind != VertexKind::Free)
-            return false;
-        _remesh.mesh.GatherStar(v, _star);
-        const auto worstAngle = [&] {
-            double worst = -1;
-            for (const Side c : _star.corner)
-                worst = std::max(worst, LargestCosine(SideTriangle(c)));
-            return worst;
-        };
-        bool improved = false;
-        for (double size = 0.3; size > 0.05; size *= 0.5)
-            for (int k = 0; k < 6; ++k) {
-                const Point start = _remesh.position[v];
-                const Place place = _remesh.place[v];
-                const double rho = _remesh.rho[v];
-                const double angle = worstAngle(), distance = StarSquaredDistance(_model, _remesh, v, _star);
-                const auto any = [](const LocalStar &, const Point &q) { return SquaredNorm(q); };
-                if (!_relocator.TryShift(v, size, k * Pi / 3, any))
-                    continue;
-                if (worstAngle() < std::max(angle, cosine) &&
-                    StarSquaredDistance(_model, _remesh, v, _star) < 0.99 * distance) {
-                    improved = true;
-                    continue;
-                }
-                SetVertex(v, start, place, rho);
-            }
         return improved;
     }
 

@@ -15,6 +15,7 @@
 #include <vcg/complex/algorithms/ccdm/input_mesh.h>
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
+#include <vcg/complex/algorithms/ccdm/surface_offset.h>
 
 namespace vcg {
 namespace ccdm {
@@ -90,6 +91,7 @@ private:
                 !SecondAttempt(model, params, remesh))
                 return false;
             if (passed) {
+                Offset(model, remesh);
                 CountExtra(model, remesh, params.vertexCount);
                 WarnOfFolds();
                 return true;
@@ -208,6 +210,8 @@ private:
             return bad("the density exponent must lie between 0 and 3");
         if (!(MinAngle(p) >= 0 && MinAngle(p) <= 45))
             return bad("the smallest angle aimed at must lie between 0 and 45 degrees");
+        if (!(p.approximation >= 0 && p.approximation <= 1))
+            return bad("the weight of the approximation must lie between 0 and 1");
         if (p.threads < 0)
             return bad("the number of threads must be at least 0");
         _report.requestedVertices = p.vertexCount;
@@ -328,6 +332,21 @@ private:
         for (const CurveSample &s : samples)
             count += boundary(curve[s.curve]);
         return count;
+    }
+
+    // The vertices leave the surface if the parameters want that and nothing breaks.
+    void Offset(const Model &model, Remesh &remesh)
+    {
+        if (!(_params.approximation > 0.5))
+            return;
+        const std::vector<Point> onSurface = remesh.position;
+        SurfaceOffset(model, remesh, _workers).Run(2 * _params.approximation - 1);
+        if (Check(model, remesh))
+            return;
+        _report.warnings.push_back("the vertices stay on the surface: off it " + _report.message);
+        _report.message.clear();
+        remesh.position = onSurface;
+        Check(model, remesh);
     }
 
     void CountExtra(const Model &model, const Remesh &remesh, int aimedAt)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <vcg/complex/algorithms/ccdm/approximation.h>
+
+#include <gtest/gtest.h>
+
+#include <vcg/complex/algorithms/ccdm/initial_mesh.h>
+#include <vcg/complex/algorithms/ccdm/optimizer.h>
+#include <vcg/complex/algorithms/ccdm/result_check.h>
+#include <vcg/complex/algorithms/ccdm/surface_offset.h>
+
+#include "support/meshes.h"
+
+namespace {
+
+using namespace vcg::ccdm;
+
+TEST(Probes, KnowTheirDistances)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(4), 600, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Probes probes(model, r, meshes::Alone());
+    probes.Find();
+    // One at each vertex, a few more along long sharp edges.
+    ASSERT_GE(probes.Count(), r.VertexCount());
+    for (int i = 0; i < probes.Count(); ++i)
+        EXPECT_LT(probes.Distance(i), 1e-12);
+    // One vertex pulled out: its probe is now off by no more than that, and has an owner in its star.
+    const Point out = Normalized(r.position[17]) * (0.2 * model.density.spacing[17]);
+    r.position[17] += out;
+    probes.Find();
+    EXPECT_GT(probes.Distance(17), 0);
+    EXPECT_LE(probes.Distance(17), Norm(out) * (1 + 1e-12));
+    int owned = 0;
+    for (int t = 0; t < r.mesh.TriangleCount(); ++t)
+        for (int k = probes.First(t); k < probes.First(t + 1); ++k) {
+            EXPECT_EQ(probes.Owner(probes.Owned(k)), t);
+            ++owned;
+        }
+    EXPECT_EQ(owned, probes.Count());
+}
+
+// Mean squared distance of the centroids from the surface.
+double Stray(const Model &model, const Remesh &r)
+{
+    double sum = 0;
+    for (const Triangle &T : r.mesh.triangle)
+        sum +=
+            SquaredDistanceNear(model, r, T.v[0], (r.position[T.v[0]] + r.position[T.v[1]] + r.position[T.v[2]]) / 3);
+    return sum / r.mesh.TriangleCount();
+}
+
+// A remesh of 400 vertices of a sphere with lobes, made without regard to the distance.
+Remesh Coarse(const Model &model, double approximation)
+{
+    Params params;
+    params.vertexCount = 400;
+    params.approximation = approximation;
+    Report report;
+    Random random(1);
+    SampleSet samples;
+    samples.onFaces = SampleFaces(model.surface, model.density, params.vertexCount, random);
+    Remesh r;
+    EXPECT_TRUE(InitialMeshBuilder(model, samples).Build(r, [](double) { return true; }));
+    EXPECT_TRUE(Optimizer(model, params, r, report, meshes::Alone()).Run({}, [](double) { return true; }));
+    return r;
+}
+
+// A sphere with a blunt spike, which the remesh rounds off.
+shapes::Shape Spiked()
+{
+    shapes::Shape s = shapes::Sphere(5);
+    for (auto &p : s.points) {
+        const double d = std::hypot(p[0] - 0.6, p[1], p[2] - 0.8);
+        for (double &x : p)
+            x *= 1 + 0.4 * std::exp(-d * d / 0.02);
+    }
+    return s;
+}
+
+TEST(Approximation, BringsTheRemeshCloser)
+{
+    const Model model = meshes::MakeModel(Spiked(), 400, 180);
+    Remesh r = Coarse(model, 0);
+    const double before = Stray(model, r);
+    Probes probes(model, r, meshes::Alone());
+    Approximation(model, r, probes, meshes::Alone()).Run(0.05, 6);
+    EXPECT_LT(Stray(model, r), 0.9 * before);
+    EXPECT_EQ(ResultCheck(model, r).fault, "");
+    for (int v = 0; v < r.VertexCount(); ++v)
+        EXPECT_LT(SquaredDistanceNear(model, r, v, r.position[v]), 1e-20) << "vertex " << v << " has left the surface";
+}
+
+TEST(Approximation, WithoutWeightDoesNothing)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(3), 400, 180);
+    Remesh r = Coarse(model, 0);
+    const std::vector<Point> before = r.position;
+    Probes probes(model, r, meshes::Alone());
+    Approximation(model, r, probes, meshes::Alone()).Run(0, 6);
+    EXPECT_EQ(r.position, before);
+}
+
+TEST(SurfaceOffset, SpreadsTheErrorOverBothSides)
+{
+    // All chords of a convex surface lie inside; the best offset leaves about a quarter of their error.
+    const Model model = meshes::MakeModel(shapes::Sphere(4), 300, 180);
+    Remesh r = Coarse(model, 0);
+    const double before = Stray(model, r);
+    SurfaceOffset(model, r, meshes::Alone()).Run(1);
+    EXPECT_LT(Stray(model, r), 0.2 * before);
+    double inside = 0, outside = 0;
+    for (const Point &p : r.position)
+        (Norm(p) < 1 ? inside : outside) += 1;
+    EXPECT_GT(outside, 10 * inside);
+    EXPECT_EQ(ResultCheck(model, r).fault, "");
+}
+
+TEST(SurfaceOffset, LeavesFeaturesWhereTheyAre)
+{
+    const Model model = meshes::MakeModel(shapes::Box(1, 1, 1), 400, 40);
+    Remesh r = Coarse(model, 0);
+    const std::vector<Point> before = r.position;
+    SurfaceOffset(model, r, meshes::Alone()).Run(1);
+    for (int v = 0; v < r.VertexCount(); ++v)
+        EXPECT_LT(Norm(r.position[v] - before[v]), 1e-12); // the sides are flat as well
+}
+
+} // namespace

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_APPROXIMATION_H
+#define VCG_CCDM_APPROXIMATION_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/angle_polish.h>
+#include <vcg/complex/algorithms/ccdm/probes.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Brings the remesh closer to the surface, where it strays most, by flips and by moves over the surface
+/// that weigh the squared distance against the sum of the smallest angles. Neither the paper's energy nor
+/// the angles see the distance between the surfaces (paper, section 4, limitations).
+class Approximation
+{
+public:
+    Approximation(const Model &model, Remesh &remesh, Probes &probes, Workers &workers)
+        : _model(model), _remesh(remesh), _probe(probes), _workers(workers), _schedule(remesh, workers),
+          _relocator(workers.Count(), Relocator(model, remesh)), _watched(workers.Count()), _anchor(workers.Count())
+    {
+    }
+
+    /// `rounds` times through the parts that stray, the moves getting smaller. `weight`: radians of angle
+    /// that a triangle may lose for each mean squared distance that it gets nearer.
+    void Run(double weight, int rounds)
+    {
+        const int triangles = _remesh.mesh.TriangleCount();
+        if (!(weight > 0) || triangles == 0)
+            return;
+        _stray.assign(triangles, 0);
+        _active.assign(_remesh.VertexCount(), 1);
+        double size = 0.15;
+        for (int round = 0; round < rounds; ++round, size *= 0.8) {
+            Measure();
+            if (round == 0) {
+                _mean = Mean();
+                if (!(_mean > 0))
+                    return;
+                _weight = weight / _mean;
+            }
+            if (round % 2 == 0)
+                _probe.Find();
+            Activate();
+            _schedule.ForVertices([&](int v, int worker) {
+                if (_active[v] != 0 && _remesh.place[v].kind != VertexKind::Corner)
+                    Climb(v, size, 0.5 * round, worker);
+            });
+            Flip();
+        }
+    }
+
+private:
+    /// Parts that stray by more than this many mean squared distances are worked on.
+    static constexpr double Cut = 2;
+    /// A probe counts if it is further away than this many root mean square distances.
+    static constexpr double FarProbe = 4;
+    static constexpr int MostProbes = 6;
+    /// Below this angle, in radians, a loss counts three times.
+    static constexpr double LowAngle = 0.75;
+
+    struct Anchor {
+        int face;
+        Point point;
+    };
+
+    const Model &_model;
+    Remesh &_remesh;
+    Probes &_probe;
+    Workers &_workers;
+    PatchSchedule _schedule;
+    std::vector<Relocator> _relocator;                 // one for each worker
+    std::vector<std::array<int, MostProbes>> _watched; // probes of the star at hand, for each worker
+    std::vector<std::vector<Anchor>> _anchor;          // points of the surface next to its samples, for each worker
+    std::vector<double> _stray;                        // of each triangle: mean squared distance of its samples
+    std::vector<std::uint8_t> _active;
+    double _mean = 0, _weight = 0;
+
+    double SquaredDistance(int v, const Point &p) const { return SquaredDistanceNear(_model, _remesh, v, p, 0.05); }
+
+    // The vertex of a triangle from which to look for points of the surface near it: a free one, as the
+    // others may be at home on the far side of a feature.
+    int Home(int a, int b, int c) const
+    {
+        const auto free = [&](int v) { return _remesh.place[v].kind == VertexKind::Free; };
+        return free(a) || !(free(b) || free(c)) ? a : free(b) ? b : c;
+    }
+
+    // The centroid counts as much as the middles of two sides, each of which two triangles share.
+    double Stray(int t) const
+    {
+        const Triangle &T = _remesh.mesh.triangle[t];
+        const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
+        const int home = Home(T.v[0], T.v[1], T.v[2]);
+        return 0.4 * SquaredDistance(home, (a + b + c) / 3) +
+               0.2 * (SquaredDistance(home, (a + b) / 2) + SquaredDistance(home, (b + c) / 2) +
+                      SquaredDistance(home, (c + a) / 2));
+    }
+
+    // The chords of features cannot be mended and are left out, if there are others.
+    double Mean() const
+    {
+        double sum = 0, all = 0;
+        int free = 0;
+        for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t) {
+            const Triangle &T = _remesh.mesh.triangle[t];
+            all += _stray[t];
+            if (_remesh.place[T.v[0]].kind == VertexKind::Free && _remesh.place[T.v[1]].kind == VertexKind::Free &&
+                _remesh.place[T.v[2]].kind == VertexKind::Free) {
+                sum += _stray[t];
+                ++free;
+            }
+        }
+        return free > 0 ? sum / free : all / _remesh.mesh.TriangleCount();
+    }
+
+    // Only what may have changed.
+    void Measure()
+    {
+        Chunks::For(_workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int) {
+            for (int t = first; t < last; ++t) {
+                const Triangle &T = _remesh.mesh.triangle[t];
+                if (_active[T.v[0]] != 0 || _active[T.v[1]] != 0 || _active[T.v[2]] != 0)
+                    _stray[t] = Stray(t);
+            }
+        });
+    }
+
+    bool Far(int r) const { return _probe.Distance(r) * _probe.Distance(r) > FarProbe * FarProbe * _mean; }
+
+    void Activate()
+    {
+        std::fill(_active.begin(), _active.end(), 0);
+        for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t) {
+            bool far = _stray[t] > Cut * _mean;
+            for (int k = _probe.First(t); k < _probe.First(t + 1) && !far; ++k)
+                far = Far(_probe.Owned(k));
+            if (far)
+                for (const int v : _remesh.mesh.triangle[t].v)
+                    _active[v] = 1;
+        }
+    }
+
+    // The farthest probes of the star of v; -1 ends the list.
+    void Watch(int v, std::array<int, MostProbes> &watched) const
+    {
+        watched.fill(-1);
+        _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+            const int t = SideTriangle(s);
+            for (int k = _probe.First(t); k < _probe.First(t + 1); ++k) {
+                int r = _probe.Owned(k);
+                if (!Far(r))
+                    continue;
+                for (int &w : watched)
+                    if (w < 0 || _probe.Distance(w) < _probe.Distance(r))
+                        std::swap(w, r);
+            }
+            return true;
+        });
+    }
+
+    void Climb(int v, double size, double turn, int worker)
+    {
+        std::array<int, MostProbes> &watched = _watched[worker];
+        Watch(v, watched);
+        const Point x = _remesh.position[v];
+        // The samples of later positions are looked for where those of the first one were found.
+        std::vector<Anchor> &anchor = _anchor[worker];
+        anchor.clear();
+        const auto stray = [&](std::size_t i, const Point &p) {
+            const auto [face, foot] = _model.surface.Project(anchor[i].face, anchor[i].point, p, 0.05);
+            anchor[i] = {face, foot.point};
+            return foot.squaredDistance;
+        };
+        const auto score = [&](const LocalStar &star, const Point &q) {
+            if (anchor.empty())
+                for (int k = 0; k < star.triangles; ++k) {
+                    const int home = Home(v, star.id[k], star.id[star.After(k)]);
+                    anchor.insert(anchor.end(), 2, {_remesh.place[home].face, _remesh.position[home]});
+                }
+            double sum = 0;
+            for (int k = 0; k < star.triangles; ++k) {
+                const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
+                const double angle = SmallestAngle(q, a, b);
+                sum += angle - 2 * std::max(0.0, LowAngle - angle);
+                sum -= 0.4 * _weight * (stray(2 * k, x + (q + a + b) / 3) + stray(2 * k + 1, x + (q + a) / 2));
+            }
+            for (const int r : watched)
+                if (r >= 0)
+                    sum -= _weight * SquaredDistanceOfStar(star, q, _probe[r].point - x);
+            return sum;
+        };
+        _relocator[worker].Climb(v, size, turn, score);
+    }
+
+    static double SquaredDistanceOfStar(const LocalStar &star, const Point &q, const Point &p)
+    {
+        double least = 1e300;
+        for (int k = 0; k < star.triangles; ++k)
+            least = std::min(least,
+                             NearestOnTriangle(q, star.spoke[k] - q, star.spoke[star.After(k)] - q, p).squaredDistance);
+        return least;
+    }
+
+    bool FlipHelps(Side s, const Hinge &h) const
+    {
+        if (_remesh.mesh.Constrained(s))
+            return false;
+        const double before = SmallestAngle(h.a, h.p, h.q) + SmallestAngle(h.b, h.p, h.q);
+        const double after = SmallestAngle(h.a, h.p, h.b) + SmallestAngle(h.a, h.b, h.q);
+        if (after < before - 0.5)
+            return false;
+        const int home = Home(h.apexA, _remesh.mesh.Tail(s), _remesh.mesh.Head(s));
+        const double now = SquaredDistance(home, (h.p + h.q) / 2), then = SquaredDistance(home, (h.a + h.b) / 2);
+        return after - before > 2 * _weight * (then - now) + 1e-3;
+    }
+
+    void Flip()
+    {
+        _schedule.ForEdges(
+            [&](Side s) {
+                const Side mate = _remesh.mesh.Mate(s);
+                return std::max(_stray[SideTriangle(s)], _stray[SideTriangle(mate)]) > Cut * _mean &&
+                       FlipHelps(s, Hinge(_remesh, s));
+            },
+            [&](Side s) {
+                if (_remesh.mesh.Mate(s) == NoSide)
+                    return;
+                const Hinge h(_remesh, s);
+                if (FlipHelps(s, h) && MayFlip(_remesh, s, h))
+                    _remesh.mesh.Flip(s);
+            });
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
