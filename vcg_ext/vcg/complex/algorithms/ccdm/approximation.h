@@ -38,14 +38,13 @@ public:
         double size = 0.15;
         for (int round = 0; round < rounds; ++round, size *= 0.8) {
             Measure();
-            if (round == 0) {
-                _mean = Mean();
-                if (!(_mean > 0))
-                    return;
-                _weight = weight / _mean;
-            }
             if (round % 2 == 0)
                 _probe.Find();
+            if (round == 0) {
+                SetScale(weight);
+                if (!(_mean > 0))
+                    return;
+            }
             Activate();
             _schedule.ForVertices([&](int v, int worker) {
                 if (_active[v] != 0 && _remesh.place[v].kind != VertexKind::Corner)
@@ -60,6 +59,11 @@ private:
     static constexpr double Cut = 2;
     /// A probe counts if it is further away than this many root mean square distances.
     static constexpr double FarProbe = 4;
+    /// Outliers: squared distances above so many mean ones, and above this share of the largest. Measured:
+    /// without the share, models with many tips lose angle for them.
+    static constexpr double Outlier = 16, OutlierShare = 0.3;
+    /// Where the mean squared distance is less than this times the mean squared edge, nothing strays.
+    static constexpr double Flat = 1e-12;
     static constexpr int MostProbes = 6;
     /// Below this angle, in radians, a loss counts three times.
     static constexpr double LowAngle = 0.75;
@@ -79,7 +83,9 @@ private:
     std::vector<std::vector<Anchor>> _anchor;          // points of the surface next to its samples, for each worker
     std::vector<double> _stray;                        // of each triangle: mean squared distance of its samples
     std::vector<std::uint8_t> _active;
-    double _mean = 0, _weight = 0;
+    double _mean = 0;    // of the squared distances
+    double _weight = 0;  // of a squared distance
+    double _outlier = 0; // squared distance from which on it costs more
 
     double SquaredDistance(int v, const Point &p) const { return SquaredDistanceNear(_model, _remesh, v, p, 0.05); }
 
@@ -102,21 +108,36 @@ private:
                       SquaredDistance(home, (c + a) / 2));
     }
 
-    // The chords of features cannot be mended and are left out, if there are others.
-    double Mean() const
+    // The chords of features cannot be mended and do not count, if there are other triangles.
+    void SetScale(double weight)
     {
-        double sum = 0, all = 0;
+        double sum = 0, all = 0, most = 0, edges = 0;
         int free = 0;
         for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t) {
             const Triangle &T = _remesh.mesh.triangle[t];
             all += _stray[t];
-            if (_remesh.place[T.v[0]].kind == VertexKind::Free && _remesh.place[T.v[1]].kind == VertexKind::Free &&
-                _remesh.place[T.v[2]].kind == VertexKind::Free) {
+            edges += SquaredNorm(_remesh.position[T.v[1]] - _remesh.position[T.v[0]]);
+            if (std::all_of(std::begin(T.v), std::end(T.v),
+                            [&](int v) { return _remesh.place[v].kind == VertexKind::Free; })) {
                 sum += _stray[t];
+                most = std::max(most, _stray[t]);
                 ++free;
             }
         }
-        return free > 0 ? sum / free : all / _remesh.mesh.TriangleCount();
+        for (int r = 0; r < _probe.Count(); ++r)
+            most = std::max(most, _probe.Distance(r) * _probe.Distance(r));
+        _mean = free > 0 ? sum / free : all / _remesh.mesh.TriangleCount();
+        if (_mean < Flat * edges / _remesh.mesh.TriangleCount())
+            _mean = 0;
+        _weight = weight / std::max(_mean, 1e-300);
+        _outlier = std::max(Outlier * _mean, OutlierShare * most);
+    }
+
+    // What a squared distance costs, in mean ones: outliers, which make the Hausdorff distance, cost more.
+    double Cost(double d) const
+    {
+        const double excess = std::max(0.0, d - _outlier);
+        return d + 0.5 * excess * excess / _mean;
     }
 
     // Only what may have changed.
@@ -188,11 +209,12 @@ private:
                 const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
                 const double angle = SmallestAngle(q, a, b);
                 sum += angle - 2 * std::max(0.0, LowAngle - angle);
-                sum -= 0.4 * _weight * (stray(2 * k, x + (q + a + b) / 3) + stray(2 * k + 1, x + (q + a) / 2));
+                sum -=
+                    0.4 * _weight * (Cost(stray(2 * k, x + (q + a + b) / 3)) + Cost(stray(2 * k + 1, x + (q + a) / 2)));
             }
             for (const int r : watched)
                 if (r >= 0)
-                    sum -= _weight * SquaredDistanceOfStar(star, q, _probe[r].point - x);
+                    sum -= _weight * Cost(SquaredDistanceOfStar(star, q, _probe[r].point - x));
             return sum;
         };
         _relocator[worker].Climb(v, size, turn, score);
@@ -217,7 +239,7 @@ private:
             return false;
         const int home = Home(h.apexA, _remesh.mesh.Tail(s), _remesh.mesh.Head(s));
         const double now = SquaredDistance(home, (h.p + h.q) / 2), then = SquaredDistance(home, (h.a + h.b) / 2);
-        return after - before > 2 * _weight * (then - now) + 1e-3;
+        return after - before > 2 * _weight * (Cost(then) - Cost(now)) + 1e-3;
     }
 
     void Flip()
