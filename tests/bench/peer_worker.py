@@ -94,11 +94,12 @@ def instant():
     """Instant Meshes: an orientation and a position field, triangles extracted from them."""
     import pynanoinstantmeshes
 
-    def run(source, target, size, angle):
+    def run(source, target, size, angle, smoothing):
         points, faces = read_ply(source)
         u, g = pynanoinstantmeshes.remesh(points.astype(np.float32), faces.astype(np.uint32), int(round(size)), rosy=6,
-                                          posy=3, creaseAngle=angle, align_to_boundaries=True, deterministic=True)
-        write_ply(target, u, g[:, :3])
+                                          posy=3, creaseAngle=angle, align_to_boundaries=True,
+                                          smooth_iter=int(smoothing), deterministic=True)
+        write_ply(target, u, g)
     return run
 
 

@@ -205,6 +205,7 @@ def all_peers():
         return Packaged(name, environment, package, function, settings, **options)
 
     explicit, botsch, acvd = "isotropic explicit remeshing", "remesh_botsch, detected creases", "input subdivided to"
+    instant = "rosy 6, posy 3, aligned to boundaries"
     return [
         Ours("CCDM, default"),
         Ours("CCDM, approximation 1", ("--approximation", "1")),
@@ -215,7 +216,8 @@ def all_peers():
         Cgal(20),
         Mmgs(environment),
         packaged("Gmsh", "gmsh", "gmsh", "classifySurfaces, createGeometry, frontal-Delaunay"),
-        packaged("Instant Meshes", "PyNanoInstantMeshes", "instant", "rosy 6, posy 3, aligned to boundaries", slope=1),
+        packaged("Instant Meshes", "PyNanoInstantMeshes", "instant", instant, slope=1, smoothing=2),
+        packaged("Instant Meshes, not smoothed", "PyNanoInstantMeshes", "instant", instant, slope=1, smoothing=0),
         packaged("gpytoolbox Botsch, 10 iterations", "gpytoolbox", "botsch", botsch, iterations=10),
         packaged("gpytoolbox Botsch, 20 iterations", "gpytoolbox", "botsch", botsch, iterations=20),
         packaged("ACVD, subsampling 10", "pyacvd", "acvd", f"{acvd} 10 vertices a cluster", slope=1, subsampling=10),
