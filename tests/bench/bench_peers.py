@@ -60,7 +60,7 @@ class Bench:
         self.input = peer.prepare(source, folder)
 
     def run(self, size):
-        """Seconds and memory of one run, its result left in the target file."""
+        """Seconds of one run, its result left in the target file."""
         for path in (self.target, self.target + ".start"):
             if os.path.exists(path):
                 os.remove(path)
@@ -70,7 +70,7 @@ class Bench:
         start = 0.0
         if os.path.exists(self.target + ".start"):
             start = float(open(self.target + ".start", encoding="ascii").read())
-        return {"cpu": usage.cpu - start, "start": start, "wall": usage.wall, "megabytes": usage.megabytes}
+        return {"cpu": usage.cpu - start, "start": start, "wall": usage.wall}
 
     def calibrate(self, size, n):
         """Secant in logarithms; size and run whose vertex count comes nearest to n, the mesh kept in `best`."""
@@ -135,7 +135,7 @@ def line_of(row):
 
 
 def bench_threads(repeats):
-    """Wall seconds of the project's own program for growing sizes, with one thread and with two."""
+    """Seconds of the project's own program for growing sizes, with one thread and with two."""
     source, rows = model("igea"), []
     with tempfile.TemporaryDirectory() as folder:
         for n in SCALING_SIZES:
@@ -143,7 +143,8 @@ def bench_threads(repeats):
             for threads in (1, 2):
                 command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
                            str(FEATURE_ANGLE), "--threads", str(threads), "--quiet"]
-                row[f"wall_{threads}"] = min(usage_of(command).wall for _ in range(repeats))
+                best = min((usage_of(command) for _ in range(repeats)), key=lambda u: u.wall)
+                row[f"wall_{threads}"], row[f"cpu_{threads}"] = best.wall, best.cpu
             rows.append(row)
             print(f"{n:>9} vertices: {row['wall_1']:.2f} s with one thread, {row['wall_2']:.2f} s with two", flush=True)
     return rows

@@ -7,17 +7,19 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(HERE, "PEERS.md")
 PICTURES = os.path.join(HERE, "pictures")
-COLUMNS = ("remesher", "CPU s", "of ours", "start s", "MB", "vertices", "average smallest angle", "smallest angle",
+COLUMNS = ("remesher", "CPU s", "CPU / ours", "start s", "vertices", "average smallest angle", "smallest angle",
            "angles < 30 %", "[FB99] average", "Hausdorff", "RMS", "valence 6 %", "topology")
+TEXTS = ("model", "remesher", "which", "version", "takes", "settings", "state", "topology")
 
 
 def table(head, rows):
-    """A Markdown table; the first column to the left, the others to the right."""
-    lines = ["| " + " | ".join(head) + " |", "|---" + "|--:" * (len(head) - 1) + "|"]
+    """A Markdown table; numbers to the right."""
+    lines = ["| " + " | ".join(head) + " |", "|" + "|".join("---" if h in TEXTS else "--:" for h in head) + "|"]
     return lines + ["| " + " | ".join(row) + " |" for row in rows]
 
 
@@ -43,7 +45,7 @@ def rivals(data, name):
 def cells(row, ours):
     ratio = f"{row['cpu'] / ours['cpu']:.2f}" if ours else ""
     name = f"**{row['peer']}**" if row["ours"] else row["peer"]
-    return [name, f"{row['cpu']:.2f}", ratio, f"{row['start']:.2f}", f"{row['megabytes']:.0f}",
+    return [name, f"{row['cpu']:.2f}", ratio, f"{row['start']:.2f}",
             f"{row['vertices']:,}" + ("" if row["count_met"] else " (off)"), f"{row['angle_min_avg']:.2f}",
             f"{row['angle_min']:.1f}", f"{row['pct_lt30']:.3f}", f"{row['q_fb99_avg']:.3f}",
             f"{1e3 * row['hausdorff']:.2f}", f"{1e3 * row['rms']:.3f}", f"{row['pct_valence6']:.1f}",
@@ -59,13 +61,18 @@ def model_section(data, name, n):
     return lines + ([""] if failed else []) + [f"- {r['peer']}: no result, {r['reason']}" for r in failed]
 
 
+def marked(row):
+    """A remesher's name in the summary, with a sign where it changed the topology."""
+    return row["peer"] + ("" if row["topology_kept"] else " †")
+
+
 def summary_row(data, name, ours):
     others = rivals(data, name)
     fast, near, even, best = (min(others, key=key) for key in (
         lambda r: r["cpu"], lambda r: r["hausdorff"], lambda r: r["rms"], lambda r: -r["angle_min_avg"]))
-    return [name, f"{ours['cpu']:.2f}", f"{fast['cpu'] / ours['cpu']:.2f}", fast["peer"],
-            f"{near['hausdorff'] / ours['hausdorff']:.2f}", near["peer"], f"{even['rms'] / ours['rms']:.2f}",
-            even["peer"], f"{ours['angle_min_avg']:.2f}", f"{best['angle_min_avg']:.2f}", best["peer"]]
+    return [name, f"{ours['cpu']:.2f}", f"{fast['cpu'] / ours['cpu']:.2f}", marked(fast),
+            f"{near['hausdorff'] / ours['hausdorff']:.2f}", marked(near), f"{even['rms'] / ours['rms']:.2f}",
+            marked(even), f"{ours['angle_min_avg']:.2f}", f"{best['angle_min_avg']:.2f}", marked(best)]
 
 
 def summary(data):
@@ -88,17 +95,26 @@ def peers_section(data):
 def threads_section(data):
     if not data["threads"]:
         return []
-    rows = [[f"{r['n']:,}", f"{r['wall_1']:.2f}", f"{r['wall_2']:.2f}", f"{r['wall_1'] / r['wall_2']:.2f}"]
+    rows = [[f"{r['n']:,}"] + [f"{r[key]:.2f}" for key in ("wall_1", "wall_2")]
+            + [f"{r['wall_1'] / r['wall_2']:.2f}"] + [f"{r[key]:.2f}" for key in ("cpu_1", "cpu_2")]
             for r in data["threads"]]
-    return (["", "## Threads", "", f"Wall seconds of the project's default on {data['threads'][0]['model']}.", ""]
-            + table(("vertices", "one thread", "two threads", "gain"), rows)
+    head = ("vertices", "one thread: wall s", "two threads: wall s", "gain", "one thread: CPU s", "two threads: CPU s")
+    return (["", "## Threads", "", f"The project's default on {data['threads'][0]['model']}.", ""] + table(head, rows)
             + ["", "![Wall time against vertices](pictures/threads.png)"])
 
 
 def colours(data):
-    """One colour for each remesher, the same in all pictures."""
+    """One colour for each remesher, the same in all pictures: strong ones first."""
     palette = plt.get_cmap("tab20").colors
+    palette = palette[0::2] + palette[1::2]
     return {p["name"]: palette[k % len(palette)] for k, p in enumerate(data["peers"])}
+
+
+def plain_ticks(axis):
+    """Ticks at 1, 2 and 5 of each decade of a logarithmic axis, written out."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:,g}" if x < 1000 else f"{x:,.0f}"))
+    axis.set_minor_formatter(FuncFormatter(lambda x, _: ""))
 
 
 def save(figure, name):
@@ -121,6 +137,7 @@ def draw_quality(data):
             axes.plot(statistics.median(x), statistics.median(y), marker, color=colour, markeredgecolor="black",
                       markersize=14 if marker == "*" else 9, label=name, linestyle="none")
     axes.set_xscale("log")
+    plain_ticks(axes.xaxis)
     axes.set_xlabel("processor time / that of the project's default (large: median over the models)")
     axes.set_ylabel("average smallest angle, degrees")
     axes.grid(alpha=0.3)
@@ -152,9 +169,11 @@ def draw_threads(data):
     sizes = [r["n"] for r in data["threads"]]
     for threads, label in ((1, "one thread"), (2, "two threads")):
         axes.loglog(sizes, [r[f"wall_{threads}"] for r in data["threads"]], "o-", label=label)
+    plain_ticks(axes.xaxis)
+    plain_ticks(axes.yaxis)
     axes.set_xlabel("vertices")
     axes.set_ylabel("wall seconds")
-    axes.grid(alpha=0.3, which="both")
+    axes.grid(alpha=0.3)
     axes.legend()
     save(figure, "threads.png")
 
@@ -186,8 +205,8 @@ INTRODUCTION = """Absolute times depend on the machine; the ratios are what coun
   directions; topology is Euler characteristic, components, boundary loops, orientability, manifoldness. All
   measured by the project's `mesh_quality.h`.
 """
-SUMMARY = """Ratios above 1: the best of the others needs more time, or is farther from the input, than ours. Rows with a
-wrong count are left out; each column has its own best."""
+SUMMARY = """Ratios above 1: the best of the others needs more time, or is farther from the input, than ours. Rows
+whose count is off are left out; each column has its own best; † changed the topology."""
 
 
 def write(data):
