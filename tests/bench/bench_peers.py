@@ -53,8 +53,8 @@ def pinned(command):
 class Bench:
     """One peer on one model, from the prepared input to its row."""
 
-    def __init__(self, peer, source, folder):
-        self.peer = peer
+    def __init__(self, peer, source, angle, folder):
+        self.peer, self.angle = peer, angle
         self.target = os.path.join(folder, "result.ply")
         self.best = os.path.join(folder, "best.ply")
         self.input = peer.prepare(source, folder)
@@ -65,7 +65,7 @@ class Bench:
             if os.path.exists(path):
                 os.remove(path)
         environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        usage = usage_of(pinned(self.peer.command(self.input, self.target, size, FEATURE_ANGLE)), TIME_LIMIT,
+        usage = usage_of(pinned(self.peer.command(self.input, self.target, size, self.angle)), TIME_LIMIT,
                          env=environment)
         start = 0.0
         if os.path.exists(self.target + ".start"):
@@ -106,7 +106,7 @@ def first_size(peer, area, n):
     return math.sqrt(2 * area / (math.sqrt(3) * n)) if peer.slope < 0 else float(n)
 
 
-def bench_model(name, n, peers, repeats):
+def bench_model(name, n, peers, options):
     """Rows of all peers on one model; those that cannot be run say why."""
     source, rows, sizes = model(name), [], {}
     area = measure(source)["area"]
@@ -116,7 +116,8 @@ def bench_model(name, n, peers, repeats):
             try:
                 if not peer.reason:
                     size = sizes.get(peer.family, first_size(peer, area, n))
-                    row.update(Bench(peer, source, folder).row(source, size, n, repeats))
+                    row.update(Bench(peer, source, options.feature_angle, folder).row(
+                        source, size, n, options.repeats))
                     sizes[peer.family] = row["size"]
             except (RuntimeError, OSError, ValueError) as fault:
                 row["reason"] = str(fault)
@@ -134,7 +135,7 @@ def line_of(row):
                    f"  {'kept' if row['topology_kept'] else 'changed'}")
 
 
-def bench_threads(repeats):
+def bench_threads(options):
     """Seconds of the project's own program for growing sizes, with one thread and with two."""
     source, rows = model("igea"), []
     with tempfile.TemporaryDirectory() as folder:
@@ -142,8 +143,8 @@ def bench_threads(repeats):
             row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n}
             for threads in (1, 2):
                 command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
-                           str(FEATURE_ANGLE), "--threads", str(threads), "--quiet"]
-                best = min((usage_of(command) for _ in range(repeats)), key=lambda u: u.wall)
+                           str(options.feature_angle), "--threads", str(threads), "--quiet"]
+                best = min((usage_of(command) for _ in range(options.repeats)), key=lambda u: u.wall)
                 row[f"wall_{threads}"], row[f"cpu_{threads}"] = best.wall, best.cpu
             rows.append(row)
             print(f"{n:>9} vertices: {row['wall_1']:.2f} s with one thread, {row['wall_2']:.2f} s with two", flush=True)
@@ -174,6 +175,8 @@ def arguments():
     parser.add_argument("--peers", nargs="+", metavar="WORD",
                         help="the project's default, and those whose name has one of the words: " + "; ".join(names))
     parser.add_argument("--repeats", type=int, default=3, help="runs of each, the least time counts (default 3)")
+    parser.add_argument("--feature-angle", type=float, default=FEATURE_ANGLE,
+                        help=f"of all remeshers, degrees (default {FEATURE_ANGLE}); 180: boundaries only")
     parser.add_argument("--no-threads", action="store_true", help="leave out the scaling with threads")
     options = parser.parse_args()
     options.cases = [case for case in models if not options.models or case[0] in options.models]
@@ -188,11 +191,11 @@ def main():
     install(peers)
     rows = []
     for name, n in options.cases:
-        rows += bench_model(name, n, peers, options.repeats)
+        rows += bench_model(name, n, peers, options)
     data = {"date": datetime.date.today().isoformat(), "machine": machine(),
-            "command": " ".join(["./run.sh bench peers", *sys.argv[1:]]), "feature_angle": FEATURE_ANGLE,
+            "command": " ".join(["./run.sh bench peers", *sys.argv[1:]]), "feature_angle": options.feature_angle,
             "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows,
-            "threads": [] if options.no_threads else bench_threads(options.repeats)}
+            "threads": [] if options.no_threads else bench_threads(options)}
     with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:
         json.dump(data, out, indent=1)
     peers_page.write(data)
