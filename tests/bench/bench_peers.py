@@ -138,9 +138,10 @@ def line_of(row):
 def bench_threads(options):
     """Seconds of the project's own program for growing sizes, with one thread and with two."""
     source, rows = model("igea"), []
+    load = os.getloadavg()[0]
     with tempfile.TemporaryDirectory() as folder:
         for n in SCALING_SIZES:
-            row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n}
+            row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "load": load}
             for threads in (1, 2):
                 command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
                            str(options.feature_angle), "--threads", str(threads), "--quiet"]

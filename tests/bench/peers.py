@@ -220,9 +220,9 @@ def all_peers():
         packaged("Instant Meshes, not smoothed", "PyNanoInstantMeshes", "instant", instant, slope=1, smoothing=0),
         packaged("gpytoolbox Botsch, 10 iterations", "gpytoolbox", "botsch", botsch, iterations=10),
         packaged("gpytoolbox Botsch, 20 iterations", "gpytoolbox", "botsch", botsch, iterations=20),
-        packaged("pyacvd", "pyacvd", "acvd", f"{acvd} 10 vertices a cluster", slope=1, subsampling=10, moved=1),
-        packaged("pyacvd, not moved", "pyacvd", "acvd", f"{acvd} 10 vertices a cluster, centres not moved onto it",
+        packaged("pyacvd 10", "pyacvd", "acvd", f"{acvd} 10 vertices a cluster", slope=1, subsampling=10, moved=1),
+        packaged("pyacvd 10, not moved", "pyacvd", "acvd", f"{acvd} 10 vertices a cluster, centres not moved onto it",
                  slope=1, subsampling=10, moved=0),
-        packaged("pyacvd, not moved, 50", "pyacvd", "acvd", f"{acvd} 50 vertices a cluster, centres not moved onto it",
+        packaged("pyacvd 50, not moved", "pyacvd", "acvd", f"{acvd} 50 vertices a cluster, centres not moved onto it",
                  slope=1, subsampling=50, moved=0),
     ]

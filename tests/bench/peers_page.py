@@ -99,7 +99,10 @@ def threads_section(data):
             + [f"{r['wall_1'] / r['wall_2']:.2f}"] + [f"{r[key]:.2f}" for key in ("cpu_1", "cpu_2")]
             for r in data["threads"]]
     head = ("vertices", "one thread: wall s", "two threads: wall s", "gain", "one thread: CPU s", "two threads: CPU s")
-    return (["", "## Threads", "", f"The project's default on {data['threads'][0]['model']}.", ""] + table(head, rows)
+    first = data["threads"][0]
+    text = (f"The project's default on {first['model']}, not bound to a core. The machine's load average before was "
+            f"{first['load']:.1f}, of which this benchmark made about 1; with more, the gain is not to be trusted.")
+    return (["", "## Threads", "", text, ""] + table(head, rows)
             + ["", "![Wall time against vertices](pictures/threads.png)"])
 
 
