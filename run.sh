@@ -12,7 +12,8 @@ usage: ./run.sh VERB
           prints the quality before and after, and draws a picture (build/demo)
   test    the same set-up, then every check and test
   build   the command line, the plugin and the tests, in build/
-  bench   the comparison with MeshLab's own remesher and the scaling run (tests/bench)
+  bench   the benchmarks (tests/bench), or one of them: bench hosts, bench scaling,
+          bench peers [--models M ...] [--peers WORD ...] [--repeats N]
   clean   removes what was built; --all: the fetched MeshLab sources too
 TEXT
 }
@@ -24,6 +25,9 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
 test_packages=(clang-format clang-tidy python3-pytest)
+# CGAL, Python's environments, and what the wheels of other remeshers link to.
+peer_packages=(libcgal-dev python3-venv libgl1 libopengl0 libglu1-mesa libgomp1 libxcursor1 libxft2 libxinerama1
+    libxrender1)
 
 as_root() {
     if [ "$(id -u)" = 0 ]; then
@@ -120,17 +124,25 @@ run_tests() {
 }
 
 bench() {
+    local which=${1:-all}
+    case "$which" in all | hosts | scaling | peers) ;; *) usage; exit 2 ;; esac
     install_packages "${build_packages[@]}" "${demo_packages[@]}"
     build
-    /usr/bin/python3 tests/bench/bench_hosts.py
-    /usr/bin/python3 tests/bench/bench_scaling.py
+    case "$which" in all | hosts) /usr/bin/python3 tests/bench/bench_hosts.py ;; esac
+    case "$which" in all | scaling) /usr/bin/python3 tests/bench/bench_scaling.py ;; esac
+    case "$which" in all | peers)
+        # A remesher that cannot be installed is a row that says so.
+        (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed"
+        /usr/bin/python3 tests/bench/bench_peers.py "${@:2}"
+        ;;
+    esac
 }
 
 case "${1:-}" in
 demo) demo ;;
 test) run_tests ;;
 build) build ;;
-bench) bench ;;
+bench) bench "${@:2}" ;;
 clean)
     rm -rf build
     [ "${2:-}" != --all ] || rm -rf .sdk

@@ -9,7 +9,6 @@ Reads PLY with float or double positions, binary little endian or text, triangle
 --histogram the angles of each mesh are plotted under its picture.
 """
 import argparse
-import re
 import sys
 
 import matplotlib
@@ -19,28 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-
-def read_ply(path):
-    """Points (n, 3) and triangles (m, 3) of a PLY file."""
-    data = open(path, "rb").read()
-    end = data.index(b"end_header\n") + len(b"end_header\n")
-    header = data[:end].decode("ascii", "replace")
-    vertices = int(re.search(r"element vertex (\d+)", header)[1])
-    faces = int(re.search(r"element face (\d+)", header)[1])
-    if "format ascii" in header:
-        rows = data[end:].split(b"\n")
-        points = np.array([r.split()[:3] for r in rows[:vertices]], float)
-        return points, np.array([r.split()[1:4] for r in rows[vertices:vertices + faces]], int)
-    sizes = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
-             "float": "<f4", "double": "<f8", "float32": "<f4", "float64": "<f8", "uint8": "u1", "int32": "<i4"}
-    block = header[header.index("element vertex"):header.index("element face")]
-    fields = [(name, sizes[kind]) for kind, name in re.findall(r"property (\w+) (\w+)", block)]
-    table = np.frombuffer(data, np.dtype(fields), vertices, end)
-    points = np.stack([table[k].astype(float) for k in "xyz"], 1)
-    block = header[header.index("element face"):]
-    extra = [(name, sizes[kind]) for kind, name in re.findall(r"property (?!list)(\w+) (\w+)", block)]
-    face = np.dtype([("n", "u1"), ("v", "<i4", 3)] + extra)
-    return points, np.frombuffer(data, face, faces, end + vertices * table.dtype.itemsize)["v"]
+from meshfile import read_ply
 
 
 def rotation(elevation, azimuth):

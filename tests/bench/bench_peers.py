@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The project beside other remeshers, on the same models, one process at a time.
+
+Every process runs on one core. Its time is user + system seconds, reading and writing included, less what
+starting Python and importing a package took; the least of the runs counts. Each remesher gets the feature
+angle that is the command line's default, and a size calibrated until the vertex count is within 3 %. What
+cannot be installed, fails or takes too long is a row with the reason. All results are measured by the
+project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md and its pictures.
+"""
+import argparse
+import datetime
+import json
+import math
+import os
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+
+import peers_page
+from common import MESHES, OUT, PROGRAM, ROOT, model, usage_of
+from peers import all_peers
+
+FEATURE_ANGLE = 40  # degrees, the command line's default
+TIME_LIMIT = 300  # wall seconds of one run
+LONG_RUN = 60  # processor seconds from which on a run is not repeated
+TOLERANCE = 0.03  # of the vertex count
+TRIES = 6
+MODELS = (("joint", 6000), ("twist", 5000), ("wingnut", 6000), ("pig", 10000), ("klein_bottle", 5000),
+          ("max_planck", 10000), ("moai", 10000), ("foot", 6000), ("gargoyle", 18000), ("bunny_scan", 10000),
+          ("julius_noisy", 20000), ("koala", 10000), ("lion_vase", 30000), ("igea", 20000))
+SAMPLES = (("cad_part", 5000), ("twisted_bar", 5000), ("plate", 5000), ("klein_bottle", 5000), ("high_genus", 8000),
+           ("bumpy", 6000), ("bust", 10000))
+SCALING_SIZES = (20000, 100000, 300000)
+MEASURE = os.path.join(ROOT, "build", "bin", "measure_mesh")
+
+
+def measure(*files):
+    """What measure_mesh prints of one mesh, or of a result against its original."""
+    done = subprocess.run([MEASURE, *files], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError("the result cannot be measured: " + done.stderr.strip().replace(ROOT + os.sep, ""))
+    return json.loads(done.stdout)
+
+
+def pinned(command):
+    """The command on the last of the cores, so that no peer gains or loses by threads."""
+    return ["taskset", "-c", str(max(os.sched_getaffinity(0))), *command]
+
+
+class Bench:
+    """One peer on one model, from the prepared input to its row."""
+
+    def __init__(self, peer, source, angle, folder):
+        self.peer, self.angle = peer, angle
+        self.target = os.path.join(folder, "result.ply")
+        self.best = os.path.join(folder, "best.ply")
+        self.input = peer.prepare(source, folder)
+
+    def run(self, size):
+        """Seconds of one run, its result left in the target file."""
+        for path in (self.target, self.target + ".start"):
+            if os.path.exists(path):
+                os.remove(path)
+        environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        usage = usage_of(pinned(self.peer.command(self.input, self.target, size, self.angle)), TIME_LIMIT,
+                         env=environment)
+        start = 0.0
+        if os.path.exists(self.target + ".start"):
+            start = float(open(self.target + ".start", encoding="ascii").read())
+        return {"cpu": usage.cpu - start, "start": start, "wall": usage.wall}
+
+    def calibrate(self, size, n):
+        """Secant in logarithms; size and run whose vertex count comes nearest to n, the mesh kept in `best`."""
+        slope, previous, best = self.peer.slope, None, None
+        for _ in range(TRIES):
+            run = self.run(size)
+            result = self.peer.finish(self.target)
+            off = math.log(max(1, measure(result)["vertices"]) / n)
+            if best is None or abs(off) < best[0]:
+                best = (abs(off), size, run)
+                os.replace(result, self.best)
+            if best[0] <= math.log(1 + TOLERANCE):
+                break
+            if previous and size != previous[0]:
+                secant = (off - previous[1]) / math.log(size / previous[0])
+                slope = secant if 0.3 < secant / self.peer.slope < 3 else self.peer.slope
+            previous = (size, off)
+            size *= math.exp(-off / slope)
+        return best[1:]
+
+    def row(self, source, size, n, repeats):
+        size, first = self.calibrate(size, n)
+        metrics = measure(source, self.best)
+        runs = [first]
+        while len(runs) < repeats and first["cpu"] < LONG_RUN:
+            runs.append(self.run(size))
+        return {"size": size, "runs": len(runs), **min(runs, key=lambda r: r["cpu"]), **metrics,
+                "count_met": abs(metrics["vertices"] / n - 1) <= TOLERANCE}
+
+
+def first_size(peer, area, n):
+    """Edge length of n vertices in equilateral triangles, or n itself."""
+    return math.sqrt(2 * area / (math.sqrt(3) * n)) if peer.slope < 0 else float(n)
+
+
+def bench_model(name, n, peers, options):
+    """Rows of all peers on one model; those that cannot be run say why."""
+    source, rows, sizes = model(name), [], {}
+    area = measure(source)["area"]
+    for peer in peers:
+        row = {"model": name, "n": n, "peer": peer.name, "ours": peer.ours, "reason": peer.reason}
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                if not peer.reason:
+                    size = sizes.get(peer.family, first_size(peer, area, n))
+                    row.update(Bench(peer, source, options.feature_angle, folder).row(
+                        source, size, n, options.repeats))
+                    sizes[peer.family] = row["size"]
+            except (RuntimeError, OSError, ValueError) as fault:
+                row["reason"] = str(fault)
+        rows.append(row)
+        print(line_of(row), flush=True)
+    return rows
+
+
+def line_of(row):
+    head = f"{row['model']:<13}{row['n']:>6}  {row['peer']:<34}"
+    if row["reason"]:
+        return head + row["reason"]
+    return head + (f"{row['cpu']:>8.2f}{row['vertices']:>8}{row['angle_min_avg']:>7.2f}{row['angle_min']:>6.1f}"
+                   f"{1e3 * row['hausdorff']:>8.2f}{1e3 * row['rms']:>7.3f}{row['pct_valence6']:>6.1f}"
+                   f"  {'kept' if row['topology_kept'] else 'changed'}")
+
+
+def bench_threads(options):
+    """Seconds of the project's own program for growing sizes, with one thread and with two."""
+    source, rows = model("igea"), []
+    load = os.getloadavg()[0]
+    with tempfile.TemporaryDirectory() as folder:
+        for n in SCALING_SIZES:
+            row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "load": load}
+            for threads in (1, 2):
+                command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
+                           str(options.feature_angle), "--threads", str(threads), "--quiet"]
+                best = min((usage_of(command) for _ in range(options.repeats)), key=lambda u: u.wall)
+                row[f"wall_{threads}"], row[f"cpu_{threads}"] = best.wall, best.cpu
+            rows.append(row)
+            print(f"{n:>9} vertices: {row['wall_1']:.2f} s with one thread, {row['wall_2']:.2f} s with two", flush=True)
+    return rows
+
+
+def machine():
+    cpu = re.search(r"model name\s*: (.*)", open("/proc/cpuinfo", encoding="utf-8").read())
+    return {"cpu": cpu[1] if cpu else platform.machine(), "cores": os.cpu_count(),
+            "system": platform.freedesktop_os_release()["PRETTY_NAME"]}
+
+
+def install(peers):
+    for peer in peers:
+        try:
+            peer.install()
+        except (RuntimeError, OSError) as fault:
+            peer.reason = str(fault)
+        print(f"{peer.name:<36}{peer.reason or peer.version}", flush=True)
+
+
+def arguments():
+    names = [p.name for p in all_peers()]
+    models = MODELS if os.path.isdir(MESHES) else SAMPLES
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--models", nargs="+", choices=[name for name, _ in models], metavar="MODEL",
+                        help="only these of: " + ", ".join(name for name, _ in models))
+    parser.add_argument("--peers", nargs="+", metavar="WORD",
+                        help="the project's default, and those whose name has one of the words: " + "; ".join(names))
+    parser.add_argument("--repeats", type=int, default=3, help="runs of each, the least time counts (default 3)")
+    parser.add_argument("--feature-angle", type=float, default=FEATURE_ANGLE,
+                        help=f"of all remeshers, degrees (default {FEATURE_ANGLE}); 180: boundaries only")
+    parser.add_argument("--no-threads", action="store_true", help="leave out the scaling with threads")
+    options = parser.parse_args()
+    options.cases = [case for case in models if not options.models or case[0] in options.models]
+    return options
+
+
+def main():
+    options = arguments()
+    os.makedirs(OUT, exist_ok=True)
+    peers = [p for k, p in enumerate(all_peers()) if k == 0 or not options.peers or any(
+        word.lower() in p.name.lower() for word in options.peers)]
+    install(peers)
+    rows = []
+    for name, n in options.cases:
+        rows += bench_model(name, n, peers, options)
+    data = {"date": datetime.date.today().isoformat(), "machine": machine(),
+            "command": " ".join(["./run.sh bench peers", *sys.argv[1:]]), "feature_angle": options.feature_angle,
+            "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows,
+            "threads": [] if options.no_threads else bench_threads(options)}
+    with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:
+        json.dump(data, out, indent=1)
+    peers_page.write(data)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""PEERS.md and its pictures, from the rows that bench_peers.py measured in one run."""
+import os
+import statistics
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PAGE = os.path.join(HERE, "PEERS.md")
+PICTURES = os.path.join(HERE, "pictures")
+COLUMNS = ("remesher", "CPU s", "CPU / ours", "start s", "vertices", "average smallest angle", "smallest angle",
+           "angles < 30 %", "[FB99] average", "Hausdorff", "RMS", "valence 6 %", "topology")
+TEXTS = ("model", "remesher", "which", "version", "takes", "settings", "state", "topology")
+
+
+def table(head, rows):
+    """A Markdown table; numbers to the right."""
+    lines = ["| " + " | ".join(head) + " |", "|" + "|".join("---" if h in TEXTS else "--:" for h in head) + "|"]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def measured(data, name):
+    """The rows of one model that have figures."""
+    return [r for r in data["rows"] if r["model"] == name and not r["reason"]]
+
+
+def models_of(data):
+    return list(dict.fromkeys((r["model"], r["n"]) for r in data["rows"]))
+
+
+def reference(data, name):
+    """The row that ratios refer to: the project's default."""
+    return next((r for r in measured(data, name) if r["ours"]), None)
+
+
+def rivals(data, name):
+    """The other remeshers' rows whose vertex count came out as asked for."""
+    return [r for r in measured(data, name) if not r["ours"] and r["count_met"]]
+
+
+def cells(row, ours):
+    ratio = f"{row['cpu'] / ours['cpu']:.2f}" if ours else ""
+    name = f"**{row['peer']}**" if row["ours"] else row["peer"]
+    return [name, f"{row['cpu']:.2f}", ratio, f"{row['start']:.2f}",
+            f"{row['vertices']:,}" + ("" if row["count_met"] else " (off)"), f"{row['angle_min_avg']:.2f}",
+            f"{row['angle_min']:.1f}", f"{row['pct_lt30']:.3f}", f"{row['q_fb99_avg']:.3f}",
+            f"{1e3 * row['hausdorff']:.2f}", f"{1e3 * row['rms']:.3f}", f"{row['pct_valence6']:.1f}",
+            "kept" if row["topology_kept"] else "**changed**"]
+
+
+def model_section(data, name, n):
+    rows = sorted(measured(data, name), key=lambda r: -r["angle_min_avg"])
+    lines = ["", f"### {name}, {n:,} vertices", ""]
+    lines += table(COLUMNS, [cells(r, reference(data, name)) for r in rows])
+    known = {p["name"] for p in data["peers"] if p["reason"]}
+    failed = [r for r in data["rows"] if r["model"] == name and r["reason"] and r["peer"] not in known]
+    return lines + ([""] if failed else []) + [f"- {r['peer']}: no result, {r['reason']}" for r in failed]
+
+
+def marked(row):
+    """A remesher's name in the summary, with a sign where it changed the topology."""
+    return row["peer"] + ("" if row["topology_kept"] else " †")
+
+
+def summary_row(data, name, ours):
+    others = rivals(data, name)
+    fast, near, even, best = (min(others, key=key) for key in (
+        lambda r: r["cpu"], lambda r: r["hausdorff"], lambda r: r["rms"], lambda r: -r["angle_min_avg"]))
+    return [name, f"{ours['cpu']:.2f}", f"{fast['cpu'] / ours['cpu']:.2f}", marked(fast),
+            f"{near['hausdorff'] / ours['hausdorff']:.2f}", marked(near), f"{even['rms'] / ours['rms']:.2f}",
+            marked(even), f"{ours['angle_min_avg']:.2f}", f"{best['angle_min_avg']:.2f}", marked(best)]
+
+
+def summary(data):
+    """One table for each of the project's modes that has figures."""
+    lines = []
+    head = ("model", "our CPU s", "fastest peer's / ours", "which", "least Hausdorff / ours", "which",
+            "least RMS / ours", "which", "our angle", "best peer's", "which")
+    for peer in (p for p in data["peers"] if p["ours"] and not p["reason"]):
+        rows = [summary_row(data, r["model"], r) for r in data["rows"]
+                if r["peer"] == peer["name"] and not r["reason"] and rivals(data, r["model"])]
+        lines += ["", f"### {peer['name']}", ""] + table(head, rows)
+    return lines
+
+
+def peers_section(data):
+    rows = [[p["name"], p["version"] or "-", p["takes"], p["settings"], p["reason"] or "ran"] for p in data["peers"]]
+    return table(("remesher", "version", "takes", "settings", "state"), rows)
+
+
+def threads_section(data):
+    if not data["threads"]:
+        return []
+    rows = [[f"{r['n']:,}"] + [f"{r[key]:.2f}" for key in ("wall_1", "wall_2")]
+            + [f"{r['wall_1'] / r['wall_2']:.2f}"] + [f"{r[key]:.2f}" for key in ("cpu_1", "cpu_2")]
+            for r in data["threads"]]
+    head = ("vertices", "one thread: wall s", "two threads: wall s", "gain", "one thread: CPU s", "two threads: CPU s")
+    first = data["threads"][0]
+    text = (f"The project's default on {first['model']}, not bound to a core. The machine's load average before was "
+            f"{first['load']:.1f}, of which this benchmark made about 1; with more, the gain is not to be trusted.")
+    return (["", "## Threads", "", text, ""] + table(head, rows)
+            + ["", "![Wall time against vertices](pictures/threads.png)"])
+
+
+def colours(data):
+    """One colour for each remesher, the same in all pictures: strong ones first."""
+    palette = plt.get_cmap("tab20").colors
+    palette = palette[0::2] + palette[1::2]
+    return {p["name"]: palette[k % len(palette)] for k, p in enumerate(data["peers"])}
+
+
+def plain_ticks(axis):
+    """Ticks at 1, 2 and 5 of each decade of a logarithmic axis, written out."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:,g}" if x < 1000 else f"{x:,.0f}"))
+    axis.set_minor_formatter(FuncFormatter(lambda x, _: ""))
+
+
+def save(figure, name):
+    os.makedirs(PICTURES, exist_ok=True)
+    figure.tight_layout()
+    figure.savefig(os.path.join(PICTURES, name), dpi=90)
+    plt.close(figure)
+
+
+def draw_quality(data):
+    """A dot for each model and remesher, and a large one at each remesher's medians."""
+    figure, axes = plt.subplots(figsize=(9, 5.5))
+    for name, colour in colours(data).items():
+        points = [(r["cpu"] / reference(data, r["model"])["cpu"], r["angle_min_avg"]) for r in data["rows"]
+                  if r["peer"] == name and not r["reason"] and r["count_met"] and reference(data, r["model"])]
+        if points:
+            x, y = zip(*points)
+            axes.plot(x, y, ".", color=colour, alpha=0.5, markersize=5)
+            marker = "*" if name.startswith("CCDM") else "o"
+            axes.plot(statistics.median(x), statistics.median(y), marker, color=colour, markeredgecolor="black",
+                      markersize=14 if marker == "*" else 9, label=name, linestyle="none")
+    axes.set_xscale("log")
+    plain_ticks(axes.xaxis)
+    axes.set_xlabel("processor time / that of the project's default (large: median over the models)")
+    axes.set_ylabel("average smallest angle, degrees")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
+    save(figure, "quality.png")
+
+
+def draw_histograms(data, names):
+    """All angles of the project's default and of the three others with the best average."""
+    figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 3.4), squeeze=False)
+    for ax, name in zip(axes[0], names):
+        best = sorted(rivals(data, name), key=lambda r: -r["angle_min_avg"])[:3]
+        for row in [reference(data, name)] + best:
+            bins = row["angle_histogram"]
+            width = 180 / len(bins)
+            share = [100 * count / sum(bins) for count in bins]
+            ax.step([width * k for k in range(len(bins))], share, where="post", label=row["peer"],
+                    color=colours(data)[row["peer"]], linewidth=2 if row["ours"] else 1.2)
+        ax.set_xlim(20, 110)
+        ax.set_title(name, fontsize=10)
+        ax.set_xlabel("angle, degrees")
+        ax.legend(fontsize=6)
+    axes[0][0].set_ylabel("% of all angles")
+    save(figure, "angles.png")
+
+
+def draw_threads(data):
+    figure, axes = plt.subplots(figsize=(5.5, 3.6))
+    sizes = [r["n"] for r in data["threads"]]
+    for threads, label in ((1, "one thread"), (2, "two threads")):
+        axes.loglog(sizes, [r[f"wall_{threads}"] for r in data["threads"]], "o-", label=label)
+    plain_ticks(axes.xaxis)
+    plain_ticks(axes.yaxis)
+    axes.set_xlabel("vertices")
+    axes.set_ylabel("wall seconds")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    save(figure, "threads.png")
+
+
+def draw(data):
+    """Pictures that can be drawn; returns the lines that show the first two."""
+    draw_quality(data)
+    lines = ["", "![Quality against time](pictures/quality.png)"]
+    shown = [name for name, _ in models_of(data) if reference(data, name) and rivals(data, name)]
+    if shown:
+        # The first, the middle and the last stand for parts, for small shapes and for large ones.
+        picked = list(dict.fromkeys((shown[0], shown[len(shown) // 2], shown[-1])))
+        draw_histograms(data, picked)
+        lines += ["", "![Angles](pictures/angles.png)"]
+    if data["threads"]:
+        draw_threads(data)
+    return lines
+
+
+INTRODUCTION = """Absolute times depend on the machine; the ratios are what counts.
+
+- *Time*: user + system seconds of the whole process on one core, reading and writing included, less the
+  seconds ("start") that starting Python and importing a package took. The least of the runs counts
+  ({repeats} at most). A run may take {time_limit} s.
+- *Features*: every remesher, ours too, got the feature angle {feature_angle:g} degrees on all models; 40 is the command
+  line's default. Who takes every edge that turns by more for a crease does badly on noise; `--feature-angle
+  180` compares without creases.
+- *Size*: who takes an edge length, or does not meet a vertex count, got a size calibrated until the count was
+  within 3 %; "off" marks where that could not be had.
+- *Figures*: angles in degrees; Hausdorff and RMS in 1e-3 of the bounding box's diagonal, the larger of both
+  directions; topology is Euler characteristic, components, boundary loops, orientability, manifoldness. All
+  measured by the project's `mesh_quality.h`.
+"""
+SUMMARY = """Ratios above 1: the best of the others needs more time, or is farther from the input, than ours. Rows
+whose count is off are left out; each column has its own best; † changed the topology."""
+
+
+def write(data):
+    machine = data["machine"]
+    lines = ["# Beside other remeshers", "",
+             f"`{data['command']}`, {data['date']}, {machine['cpu']}, {machine['cores']} cores, {machine['system']}. "
+             "That command writes this page, with figures of that run only.", "",
+             INTRODUCTION.format(**data), "## Summary", "", SUMMARY]
+    lines += summary(data) + draw(data) + threads_section(data) + ["", "## Remeshers", ""] + peers_section(data)
+    lines += ["", "## Models"]
+    for name, n in models_of(data):
+        lines += model_section(data, name, n)
+    with open(PAGE, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines) + "\n")
