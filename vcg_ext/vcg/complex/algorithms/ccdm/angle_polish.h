@@ -26,6 +26,21 @@ inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
     return std::sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
 }
 
+/// How the smallest angle of the triangle (q, u, w) changes with q, at q = 0; `cross` is u x w. Where two or
+/// three angles are about equally small, the mean of what they say: the smallest alone would lead to and fro.
+inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &cross)
+{
+    constexpr double alike = 0.03; // of the squared length of the shortest side; measured
+    const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = SquaredNorm(u - w), area = Norm(cross);
+    if (!(area > 0))
+        return Point(0, 0, 0);
+    // An angle is as small as the side opposite to it is short.
+    const double least = std::min({uu, ww, uw});
+    const auto weight = [&](double side) { return std::max(0.0, 1 - (side - least) / (alike * least)); };
+    const double atQ = weight(uw), atU = weight(ww), atW = weight(uu);
+    return (Cross(cross, u) * ((atQ - atU) / uu) + Cross(cross, w) * ((atW - atQ) / ww)) / ((atQ + atU + atW) * area);
+}
+
 /// Raises the sum of the smallest angles of all triangles by flips and small moves.
 class AnglePolish
 {
@@ -38,12 +53,12 @@ public:
     /// `rounds` times through all edges and vertices, the moves getting smaller.
     void Run(int rounds)
     {
-        double size = 0.1;
-        for (int round = 0; round < rounds; ++round, size *= 0.8) {
+        double size = 0.06;
+        for (int round = 0; round < rounds; ++round, size *= 0.75) {
             Flip();
             _schedule.ForVertices([&](int v, int worker) {
                 if (_remesh.place[v].kind != VertexKind::Corner)
-                    _relocator[worker].Climb(v, size, 0.5 * round, Sum);
+                    _relocator[worker].Ascend(v, size, Sum);
             });
         }
         Flip();
@@ -54,17 +69,22 @@ private:
     PatchSchedule _schedule;
     std::vector<Relocator> _relocator; // one for each worker
 
-    static double Sum(const LocalStar &s, const Point &q)
+    // Sum of the smallest angles of the star with its centre at q.
+    static double Sum(const LocalStar &s, const Point &q, Point *gradient)
     {
         double sum = 0;
-        for (int k = 0; k < s.triangles; ++k)
-            sum += SmallestAngle(q, s.spoke[k], s.spoke[s.After(k)]);
+        for (int k = 0; k < s.triangles; ++k) {
+            const Point &u = s.spoke[k], &w = s.spoke[s.After(k)];
+            sum += SmallestAngle(q, u, w);
+            if (gradient != nullptr)
+                *gradient += SmallestAngleGradient(u, w, s.cross[k]);
+        }
         return sum;
     }
 
     bool FlipHelps(Side s, const Hinge &h) const
     {
-        if (_remesh.mesh.Constrained(s))
+        if (_remesh.mesh.Constrained(s) || h.Slender())
             return false;
         const double before = SmallestAngle(h.a, h.p, h.q) + SmallestAngle(h.b, h.p, h.q);
         const double after = SmallestAngle(h.a, h.p, h.b) + SmallestAngle(h.a, h.b, h.q);

@@ -35,7 +35,7 @@ public:
             return;
         _stray.assign(triangles, 0);
         _active.assign(_remesh.VertexCount(), 1);
-        double size = 0.15;
+        double size = 0.1;
         for (int round = 0; round < rounds; ++round, size *= 0.8) {
             Measure();
             if (round % 2 == 0)
@@ -48,7 +48,7 @@ public:
             Activate();
             _schedule.ForVertices([&](int v, int worker) {
                 if (_active[v] != 0 && _remesh.place[v].kind != VertexKind::Corner)
-                    Climb(v, size, 0.5 * round, worker);
+                    Climb(v, size, worker);
             });
             Flip();
         }
@@ -140,6 +140,8 @@ private:
         return d + 0.5 * excess * excess / _mean;
     }
 
+    double CostSlope(double d) const { return 1 + std::max(0.0, d - _outlier) / _mean; }
+
     // Only what may have changed.
     void Measure()
     {
@@ -185,7 +187,7 @@ private:
         });
     }
 
-    void Climb(int v, double size, double turn, int worker)
+    void Climb(int v, double size, int worker)
     {
         std::array<int, MostProbes> &watched = _watched[worker];
         Watch(v, watched);
@@ -193,12 +195,14 @@ private:
         // The samples of later positions are looked for where those of the first one were found.
         std::vector<Anchor> &anchor = _anchor[worker];
         anchor.clear();
-        const auto stray = [&](std::size_t i, const Point &p) {
+        const auto stray = [&](std::size_t i, const Point &p, double share, Point *gradient) {
             const auto [face, foot] = _model.surface.Project(anchor[i].face, anchor[i].point, p, 0.05);
             anchor[i] = {face, foot.point};
-            return foot.squaredDistance;
+            if (gradient != nullptr)
+                *gradient -= (p - foot.point) * (0.8 * _weight * share * CostSlope(foot.squaredDistance));
+            return Cost(foot.squaredDistance);
         };
-        const auto score = [&](const LocalStar &star, const Point &q) {
+        const auto score = [&](const LocalStar &star, const Point &q, Point *gradient) {
             if (anchor.empty())
                 for (int k = 0; k < star.triangles; ++k) {
                     const int home = Home(v, star.id[k], star.id[star.After(k)]);
@@ -209,24 +213,34 @@ private:
                 const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
                 const double angle = SmallestAngle(q, a, b);
                 sum += angle - 2 * std::max(0.0, LowAngle - angle);
-                sum -=
-                    0.4 * _weight * (Cost(stray(2 * k, x + (q + a + b) / 3)) + Cost(stray(2 * k + 1, x + (q + a) / 2)));
+                if (gradient != nullptr)
+                    *gradient += SmallestAngleGradient(a, b, star.cross[k]) * (angle < LowAngle ? 3.0 : 1.0);
+                sum -= 0.4 * _weight *
+                       (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) + stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));
             }
             for (const int r : watched)
-                if (r >= 0)
-                    sum -= _weight * Cost(SquaredDistanceOfStar(star, q, _probe[r].point - x));
+                if (r >= 0) {
+                    const Point p = _probe[r].point - x;
+                    const Foot foot = NearestOnStar(star, q, p);
+                    sum -= _weight * Cost(foot.squaredDistance);
+                    if (gradient != nullptr)
+                        *gradient += (p - foot.point) * (2 * _weight * foot.weight[0] * CostSlope(foot.squaredDistance));
+                }
             return sum;
         };
-        _relocator[worker].Climb(v, size, turn, score);
+        _relocator[worker].Ascend(v, size, score);
     }
 
-    static double SquaredDistanceOfStar(const LocalStar &star, const Point &q, const Point &p)
+    static Foot NearestOnStar(const LocalStar &star, const Point &q, const Point &p)
     {
-        double least = 1e300;
-        for (int k = 0; k < star.triangles; ++k)
-            least = std::min(least,
-                             NearestOnTriangle(q, star.spoke[k] - q, star.spoke[star.After(k)] - q, p).squaredDistance);
-        return least;
+        Foot nearest;
+        nearest.squaredDistance = 1e300;
+        for (int k = 0; k < star.triangles; ++k) {
+            const Foot foot = NearestOnTriangle(q, star.spoke[k] - q, star.spoke[star.After(k)] - q, p);
+            if (foot.squaredDistance < nearest.squaredDistance)
+                nearest = foot;
+        }
+        return nearest;
     }
 
     bool FlipHelps(Side s, const Hinge &h) const

@@ -66,7 +66,7 @@ struct CellCentroid {
             if (!(m2 > 0))
                 continue;
             const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = Dot(u, w), m = std::sqrt(m2);
-            if (uw < 0 && star.wall[k] != 0) {
+            if (uw < 0 && star.Wall(k)) {
                 // The bisectors of the spokes meet the edge from u to w at the shares s and t of its length.
                 const double s = 0.5 * uu / (uu - uw), t = 1 - 0.5 * ww / (ww - uw);
                 const Point p = u * (1 - s) + w * s, q = u * (1 - t) + w * t;
@@ -106,8 +106,8 @@ struct CurveCentroid {
     {
         Point sum(0, 0, 0);
         int neighbours = 0;
-        for (std::size_t k = 0; k < star.spoke.size(); ++k)
-            if (k >= star.sectorStart.size() || star.sectorStart[k] != 0) {
+        for (int k = 0; k < star.spokes; ++k)
+            if (star.sectorStart[k] != 0) {
                 sum += star.spoke[k];
                 ++neighbours;
             }
@@ -129,7 +129,7 @@ struct HeavyBall {
 
     Point operator()(const LocalStar &star, int v) const
     {
-        if (!star.sectorStart.empty())
+        if (star.onCurve)
             return onCurves(star, v);
         const Point x = position[v];
         const Point step = rule(star, v) * weight + (x - last[v]) * momentum;

@@ -36,6 +36,10 @@ struct Hinge {
         return 1 + (cosA * cosB - sinA * sinB) / scale;
     }
 
+    /// Whether the other diagonal is so long that no flip can raise the smallest angles: in two equilateral
+    /// triangles it has three times the squared length, in a square as much.
+    bool Slender() const { return SquaredNorm(a - b) > 2 * SquaredNorm(p - q); }
+
     /// Whether the other diagonal gives two triangles that face the way the old ones do, and turn no
     /// more sharply at their new edge than a right angle or than before.
     bool KeepsShape() const

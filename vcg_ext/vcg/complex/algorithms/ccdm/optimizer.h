@@ -35,6 +35,7 @@ public:
     /// accelerated optimiser refines the mesh to each in turn. False when `progress` stopped it.
     bool Run(const std::vector<int> &finer, const Progress &progress)
     {
+        _remesh.mesh.KeepRings();
         switch (_params.optimizer) {
         case OptimizerKind::Annealing:
             return Anneal(progress);
@@ -144,6 +145,7 @@ private:
             refinement.SplitLongest(finer[k] - _remesh.VertexCount());
             Polish(_model, _remesh).Unfold(10);
             refinement.Sort();
+            _remesh.mesh.KeepRings();
             _schedule.Changed();
             done = share;
             share += static_cast<double>(fine) * finer[k] / work;
@@ -197,8 +199,8 @@ private:
     // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time.
     static constexpr double FineShare = 0.5, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
-    static constexpr int PolishRounds = 14;
-    static constexpr int ApproximationRounds = 6;
+    static constexpr int PolishRounds = 10;
+    static constexpr int ApproximationRounds = 4;
 };
 
 } // namespace ccdm

@@ -45,7 +45,7 @@ struct Params {
     double lambda = 0.2;
     /// Number of perturb-optimise rounds, the paper's NG; at least 0. The accelerated optimiser does NG * NL
     /// relocations; where it starts from a coarse level, that many there and half as many at full resolution.
-    int globalIterations = 40;
+    int globalIterations = 20;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
     int localIterations = 3;
     DensityKind density = DensityKind::Uniform;

@@ -12,19 +12,23 @@ namespace vcg {
 namespace ccdm {
 
 /// The star of a vertex with geometry: what a relocation rule sees. Positions are relative to the
-/// vertex; triangle k lies between spokes k and After(k).
+/// vertex; triangle k lies between spokes k and After(k). The arrays are as long as the largest star so far.
 struct LocalStar {
     int triangles = 0;
+    int spokes = 0;
     bool closed = true;
+    bool onCurve = false;          ///< feature edges meet at the vertex, and sectorStart is filled
+    bool walled = false;           ///< wall is filled; otherwise there is none
     std::vector<int> id;           ///< outer vertices
     std::vector<Point> spoke;      ///< their positions relative to the centre
     std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
-    std::vector<char> sectorStart; ///< a feature edge runs along spoke k; filled for curve vertices
+    std::vector<char> sectorStart; ///< a feature edge runs along spoke k
     std::vector<char> wall;        ///< the outer side of triangle k is a feature or boundary edge
     Point normal;                  ///< sum of the cross products
     double radius = 0;             ///< mean length of the spokes
 
     int After(int k) const { return closed && k + 1 == triangles ? 0 : k + 1; }
+    bool Wall(int k) const { return walled && wall[k] != 0; }
 };
 
 /// Moves the vertices of a remesh one at a time: free ones over the surface, curve vertices along their
@@ -67,26 +71,23 @@ public:
         return Move(v, step, [&](const Point &q) { return score(_star, q) > before + 1e-6; });
     }
 
-    /// One step of a search for the best place of v: of six directions in the tangent plane, `size` times
-    /// the mean edge length away, takes the best if score(star, position relative to v) rises by that.
+    /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score if
+    /// the score rises by that. score(star, position relative to v, gradient) adds to the gradient unless it
+    /// is null.
     template <class Score>
-    bool Climb(int v, double size, double turn, Score score)
+    bool Ascend(int v, double size, const Score &score)
     {
         Gather(v);
-        const double before = score(_star, Point(0, 0, 0));
-        const double length = size * _star.radius;
-        const Point t1 = TangentStep(_star, turn), t2 = Cross(Normalized(_star.normal), t1);
-        Point best(0, 0, 0);
-        double highest = before;
-        for (int k = 0; k < 6; ++k) {
-            const Point q = t1 * (length * Hexagon[k][0]) + t2 * (length * Hexagon[k][1]);
-            const double s = score(_star, q);
-            if (s > highest) {
-                highest = s;
-                best = q;
-            }
-        }
-        return Move(v, best, [&](const Point &q) { return score(_star, q) > before + 1e-9; });
+        Point g(0, 0, 0);
+        const double before = score(_star, Point(0, 0, 0), &g);
+        const double n2 = SquaredNorm(_star.normal);
+        if (n2 > 0 && _remesh.place[v].kind == VertexKind::Free)
+            g -= _star.normal * (Dot(_star.normal, g) / n2);
+        const double length = Norm(g);
+        if (!(length > 0))
+            return false;
+        return Move(v, g * (size * _star.radius / length),
+                    [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; });
     }
 
     /// Unit vector at `angle` in the tangent plane of a star.
@@ -99,28 +100,57 @@ public:
     }
 
 private:
-    // Unit vectors 60 degrees apart.
-    static constexpr double Hexagon[6][2] = {{1, 0},  {0.5, 0.8660254037844386},   {-0.5, 0.8660254037844386},
-                                             {-1, 0}, {-0.5, -0.8660254037844386}, {0.5, -0.8660254037844386}};
-
     const Model &_model;
     Remesh &_remesh;
     LocalStar _star;
 
     void Gather(int v)
     {
+        const Triangulation::Ring *ring = _remesh.mesh.KnownRing(v);
+        if (ring != nullptr)
+            TakeRing(v, *ring);
+        else
+            WalkAround(v);
+        LocalStar &s = _star;
+        if (s.cross.size() < s.spoke.size())
+            s.cross.resize(s.spoke.size());
+        s.normal = Point(0, 0, 0);
+        s.radius = 0;
+        for (int k = 0; k < s.triangles; ++k) {
+            s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
+            s.normal += s.cross[k];
+        }
+        for (int k = 0; k < s.spokes; ++k)
+            s.radius += Norm(s.spoke[k]);
+        s.radius /= s.spokes;
+    }
+
+    void TakeRing(int v, const Triangulation::Ring &ring)
+    {
+        LocalStar &s = _star;
+        Reserve(Triangulation::MostInRing);
+        s.closed = true;
+        s.onCurve = s.walled = false;
+        const Point x = _remesh.position[v];
+        int k = 0;
+        for (; k < Triangulation::MostInRing && ring[k] >= 0; ++k) {
+            s.id[k] = ring[k];
+            s.spoke[k] = _remesh.position[ring[k]] - x;
+        }
+        s.spokes = s.triangles = k;
+    }
+
+    void WalkAround(int v)
+    {
         const Triangulation &m = _remesh.mesh;
         LocalStar &s = _star;
-        s.id.clear();
-        s.spoke.clear();
-        s.sectorStart.clear();
-        s.wall.clear();
         s.closed = true;
-        const bool curve = _remesh.place[v].kind == VertexKind::Curve;
+        s.walled = false;
+        s.onCurve = _remesh.place[v].kind == VertexKind::Curve;
         const Point x = _remesh.position[v];
         const int first = m.incident[v];
         int t = first, i = m.triangle[t].IndexOf(v), j = Next(i);
-        if (curve) {
+        if (s.onCurve) {
             // Start at a feature edge, so that sectors do not wrap around; at the boundary if there is
             // one.
             const Side start = SectorStart(v);
@@ -129,19 +159,22 @@ private:
             j = 3 - i - SideEdge(start);
         }
         const int origin = t;
+        int k = 0;
         for (;;) {
             const Triangle &T = m.triangle[t];
-            s.id.push_back(T.v[j]);
-            s.spoke.push_back(_remesh.position[T.v[j]] - x);
-            s.wall.push_back(static_cast<char>(T.Constrained(i)));
-            if (curve)
-                s.sectorStart.push_back(static_cast<char>(T.Constrained(3 - i - j)));
+            Reserve(k + 2);
+            s.id[k] = T.v[j];
+            s.spoke[k] = _remesh.position[T.v[j]] - x;
+            s.wall[k] = static_cast<char>(T.Constrained(i));
+            s.walled = s.walled || s.wall[k] != 0;
+            s.sectorStart[k] = static_cast<char>(T.Constrained(3 - i - j));
+            ++k;
             const Side next = T.n[j];
             if (next == NoSide) {
                 s.closed = false;
-                const int last = T.v[3 - i - j];
-                s.id.push_back(last);
-                s.spoke.push_back(_remesh.position[last] - x);
+                s.id[k] = T.v[3 - i - j];
+                s.spoke[k] = _remesh.position[s.id[k]] - x;
+                s.sectorStart[k] = 1;
                 break;
             }
             t = SideTriangle(next);
@@ -150,17 +183,21 @@ private:
             i = m.triangle[t].IndexOf(v);
             j = 3 - i - SideEdge(next);
         }
-        s.triangles = static_cast<int>(s.id.size()) - (s.closed ? 0 : 1);
-        s.cross.resize(s.triangles);
-        s.normal = Point(0, 0, 0);
-        s.radius = 0;
-        for (int k = 0; k < s.triangles; ++k) {
-            s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
-            s.normal += s.cross[k];
-        }
-        for (const Point &u : s.spoke)
-            s.radius += Norm(u);
-        s.radius /= static_cast<double>(s.spoke.size());
+        s.triangles = k;
+        s.spokes = k + (s.closed ? 0 : 1);
+        if (s.closed && !s.onCurve && !s.walled)
+            _remesh.mesh.KeepRing(v, s.id.data(), k);
+    }
+
+    void Reserve(int spokes)
+    {
+        if (_star.id.size() >= static_cast<std::size_t>(spokes))
+            return;
+        const std::size_t size = std::max<std::size_t>(16, 2 * static_cast<std::size_t>(spokes));
+        _star.id.resize(size);
+        _star.spoke.resize(size);
+        _star.sectorStart.resize(size);
+        _star.wall.resize(size);
     }
 
     // The side of a feature edge at v from which a walk that starts inside its triangle sees whole

@@ -78,6 +78,10 @@ public:
     std::vector<Triangle> triangle;
     std::vector<int> incident; ///< one live triangle of each vertex; -1 for a dead vertex
 
+    /// Outer vertices of a closed star in walking order; -1 after the last if there is room.
+    static constexpr int MostInRing = 8;
+    using Ring = std::array<int, MostInRing>;
+
     int VertexCount() const { return static_cast<int>(incident.size()); }
     int TriangleCount() const { return static_cast<int>(triangle.size()); }
 
@@ -85,6 +89,7 @@ public:
     /// two faces and that no vertex has more than one fan.
     void Build(int vertexCount, const std::vector<std::array<int, 3>> &faces)
     {
+        _ring.clear();
         triangle.assign(faces.size(), Triangle());
         incident.assign(vertexCount, -1);
         for (std::size_t t = 0; t < faces.size(); ++t)
@@ -215,6 +220,19 @@ public:
         }
     }
 
+    /// From now on until the next change other than a flip, rings that are given to KeepRing are known for
+    /// as long as no flip changes them. A sweep over known rings reads no triangles.
+    void KeepRings() { _ring.assign(incident.size(), {-1}); }
+    void KeepRing(int v, const int *outer, int count)
+    {
+        if (_ring.empty() || count > MostInRing)
+            return;
+        std::copy(outer, outer + count, _ring[v].begin());
+        if (count < MostInRing)
+            _ring[v][count] = -1;
+    }
+    const Ring *KnownRing(int v) const { return !_ring.empty() && _ring[v][0] >= 0 ? &_ring[v] : nullptr; }
+
     int Valence(int v) const
     {
         int count = 0;
@@ -263,6 +281,8 @@ public:
         Glue(MakeSide(t, e1), MakeSide(u, 2));
         incident[a] = incident[p] = incident[b] = t;
         incident[q] = u;
+        if (!_ring.empty())
+            _ring[a][0] = _ring[b][0] = _ring[p][0] = _ring[q][0] = -1;
         return MakeSide(t, e1);
     }
 
@@ -336,6 +356,7 @@ public:
     /// Live triangles around w are those that were around either.
     void Collapse(int v, int w, Side s, Star &scratch)
     {
+        _ring.clear();
         GatherStar(v, scratch);
         const Side m = Mate(s);
         for (const Side c : scratch.corner)
@@ -350,6 +371,7 @@ public:
     /// order[k]; triangles follow their first vertex in that order.
     void Compact(const std::vector<int> &order)
     {
+        _ring.clear();
         std::vector<int> newVertex(incident.size(), -1);
         for (std::size_t k = 0; k < order.size(); ++k)
             newVertex[order[k]] = static_cast<int>(k);
@@ -392,8 +414,11 @@ public:
     }
 
 private:
+    std::vector<Ring> _ring; // empty: not kept
+
     void Grow(int v)
     {
+        _ring.clear();
         if (v >= VertexCount())
             incident.resize(v + 1, -1);
     }
