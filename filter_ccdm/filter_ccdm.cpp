@@ -138,9 +138,9 @@ void FilterCcdmPlugin::initParameterSet(QAction *, MeshModel &layer, RichParamet
                                   Tip("Size of the random perturbation relative to the edge length, 0 to 1. The paper "
                                       "recommends 0.2. The accelerated optimizer starts at half of it and fades "
                                       "it out.")));
-    parameters.addParam(RichInt("global_iterations", p.globalIterations, "Global iterations (NG)",
+    parameters.addParam(RichInt("global_iterations", vcg::ccdm::GlobalIterations(p), "Global iterations (NG)",
                                 Tip("Number of perturb-and-optimise rounds, 0 or more. Triangles get better with more "
-                                    "rounds; time grows in proportion.")));
+                                    "rounds; time grows in proportion. Annealing wants about 40.")));
     parameters.addParam(RichInt("local_iterations", p.localIterations, "Local iterations (NL)",
                                 Tip("Relocations of every vertex in each round, 1 or more.")));
     parameters.addParam(
@@ -205,8 +205,8 @@ void FilterCcdmPlugin::remesh(MeshDocument &document, const RichParameterList &p
     filter_ccdm::Mesh input, result;
     filter_ccdm::CopyFromLayer(source->cm, input);
     Log("CCDM: %d vertices, %d faces -> %d vertices, feature angle %g, lambda %g, %d x %d iterations, seed %u",
-        input.VN(), input.FN(), params.vertexCount, params.featureAngle, params.lambda, params.globalIterations,
-        params.localIterations, static_cast<unsigned>(params.seed));
+        input.VN(), input.FN(), params.vertexCount, params.featureAngle, params.lambda,
+        vcg::ccdm::GlobalIterations(params), params.localIterations, static_cast<unsigned>(params.seed));
 
     QElapsedTimer timer;
     timer.start();

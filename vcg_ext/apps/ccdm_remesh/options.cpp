@@ -13,12 +13,16 @@ namespace {
 
 using vcg::ccdm::DensityKind;
 using vcg::ccdm::OptimizerKind;
+using vcg::ccdm::RelocationKind;
 using vcg::ccdm::SamplerKind;
 
 const std::map<std::string, DensityKind> densities = {
     {"uniform", DensityKind::Uniform}, {"curvature", DensityKind::Curvature}, {"quality", DensityKind::Quality}};
 const std::map<std::string, OptimizerKind> optimizers = {{"accelerated", OptimizerKind::Accelerated},
                                                          {"annealing", OptimizerKind::Annealing}};
+const std::map<std::string, RelocationKind> relocations = {{"cpt", RelocationKind::PatchCentroid},
+                                                           {"cvt", RelocationKind::CellCentroid},
+                                                           {"odt", RelocationKind::Circumcentres}};
 const std::map<std::string, SamplerKind> samplers = {{"front", SamplerKind::Front}, {"random", SamplerKind::Random}};
 
 template <class Kind>
@@ -43,8 +47,8 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     app.add_option("--lambda", p.lambda, "size of the perturbation, relative to the edge length, 0 to 1")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--global-iterations", p.globalIterations, "perturb-optimise rounds (NG), 0 to 1000000")
-        ->capture_default_str()
+    app.add_option("--global-iterations", p.globalIterations,
+                   "perturb-optimise rounds (NG), 0 to 1000000 (default: 20; with annealing 40)")
         ->check(CLI::Range(0, 1000000));
     app.add_option("--local-iterations", p.localIterations, "relocations in a round (NL), 1 to 1000000")
         ->capture_default_str()
@@ -59,6 +63,10 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     app.add_option("--sampler", p.sampler,
                    "front (default): laid out in hexagons; or random: drawn in proportion to the density")
         ->transform(CLI::CheckedTransformer(samplers, CLI::ignore_case));
+    app.add_option("--relocation", p.relocation,
+                   "where a vertex goes: cpt, the centroid of its star (default with annealing); cvt, that of its "
+                   "Voronoi cell (default otherwise); odt, the mean of the circumcentres around it")
+        ->transform(CLI::CheckedTransformer(relocations, CLI::ignore_case));
     app.add_option("--min-angle", p.minAngle,
                    "smallest angle that the closing polish aims at, degrees, 0 to 45 (default: 40; with annealing 34)")
         ->check(CLI::Range(0.0, 45.0));
@@ -81,6 +89,10 @@ const char *NameOf(DensityKind k)
 const char *NameOf(OptimizerKind k)
 {
     return Lookup(optimizers, k);
+}
+const char *NameOf(RelocationKind k)
+{
+    return Lookup(relocations, k);
 }
 const char *NameOf(SamplerKind k)
 {

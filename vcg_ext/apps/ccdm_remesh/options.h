@@ -19,6 +19,7 @@ struct Options {
 /// Names of the enumerations as the command line and the report spell them.
 const char *NameOf(vcg::ccdm::DensityKind k);
 const char *NameOf(vcg::ccdm::OptimizerKind k);
+const char *NameOf(vcg::ccdm::RelocationKind k);
 const char *NameOf(vcg::ccdm::SamplerKind k);
 
 /// Reads the arguments. Returns -1 to go on, else the exit status (0 after --help and --version, 2 for

@@ -46,7 +46,7 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["vertices"] = p.vertexCount;
     j["feature_angle"] = p.featureAngle;
     j["lambda"] = p.lambda;
-    j["global_iterations"] = p.globalIterations;
+    j["global_iterations"] = GlobalIterations(p);
     j["local_iterations"] = p.localIterations;
     j["density"] = NameOf(p.density);
     j["density_exponent"] = DensityExponent(p);
@@ -54,6 +54,7 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["approximation"] = p.approximation;
     j["optimizer"] = NameOf(p.optimizer);
     j["sampler"] = NameOf(p.sampler);
+    j["relocation"] = NameOf(Relocation(p));
     j["seed"] = p.seed;
     return j;
 }

@@ -216,7 +216,8 @@ private:
                 if (gradient != nullptr)
                     *gradient += SmallestAngleGradient(a, b, star.cross[k]) * (angle < LowAngle ? 3.0 : 1.0);
                 sum -= 0.4 * _weight *
-                       (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) + stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));
+                       (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) +
+                        stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));
             }
             for (const int r : watched)
                 if (r >= 0) {
@@ -224,7 +225,8 @@ private:
                     const Foot foot = NearestOnStar(star, q, p);
                     sum -= _weight * Cost(foot.squaredDistance);
                     if (gradient != nullptr)
-                        *gradient += (p - foot.point) * (2 * _weight * foot.weight[0] * CostSlope(foot.squaredDistance));
+                        *gradient +=
+                            (p - foot.point) * (2 * _weight * foot.weight[0] * CostSlope(foot.squaredDistance));
                 }
             return sum;
         };

@@ -14,6 +14,7 @@ namespace ccdm {
 
 /// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
 struct PatchCentroid {
+    static constexpr double Pull = 0.5; ///< share of the displacement that momentum bears; measured
     const Remesh &remesh;
     bool uniform;
 
@@ -52,6 +53,7 @@ struct Perturbation {
 /// the circumcentre, cut in two signed triangles at the latter. Where that reaches over a feature edge, it
 /// is clipped there.
 struct CellCentroid {
+    static constexpr double Pull = 1.5; ///< as for PatchCentroid
     const Remesh &remesh;
     bool uniform;
 
@@ -97,6 +99,34 @@ struct CellCentroid {
     }
 };
 
+/// Mean of the circumcentres of the star's triangles by area, weighted with the density: the relocation of
+/// optimal Delaunay triangulations (Alliez et al. 2005, "Variational tetrahedral meshing", section 3).
+struct MeanCircumcentre {
+    static constexpr double Pull = 0.5; ///< as for PatchCentroid
+    const Remesh &remesh;
+    bool uniform;
+
+    Point operator()(const LocalStar &star, int v) const
+    {
+        Point sum(0, 0, 0);
+        double mass = 0;
+        for (int k = 0; k < star.triangles; ++k) {
+            const int next = star.After(k);
+            const Point &u = star.spoke[k], &w = star.spoke[next];
+            const double m2 = SquaredNorm(star.cross[k]);
+            if (!(m2 > 0))
+                continue;
+            const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = Dot(u, w);
+            double m = std::sqrt(m2);
+            if (!uniform)
+                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
+            sum += u * (m * ww * (uu - uw) / (2 * m2)) + w * (m * uu * (ww - uw) / (2 * m2));
+            mass += m;
+        }
+        return mass > 0 ? sum / mass : Point(0, 0, 0);
+    }
+};
+
 /// For vertices of feature curves: half way between the centroid of the star and, where the density is
 /// uniform, the middle of the two neighbours on the curve, which spreads the error of the chords evenly.
 struct CurveCentroid {
@@ -116,14 +146,14 @@ struct CurveCentroid {
     }
 };
 
-/// Momentum on a relocation rule (Polyak's heavy ball): the step is weight times the rule's displacement
-/// plus momentum times the vertex's last step. Vertices of curves, where that would overshoot, have a rule
+/// Momentum on a relocation rule (Polyak's heavy ball): the step is the rule's pull times its
+/// displacement plus momentum times the vertex's last step. Vertices of curves, where that would overshoot, have a rule
 /// of their own.
 template <class Rule>
 struct HeavyBall {
     Rule rule;
     CurveCentroid onCurves;
-    double weight, momentum;
+    double momentum;
     const std::vector<Point> &position;
     std::vector<Point> &last; ///< positions before the last step
 
@@ -132,7 +162,7 @@ struct HeavyBall {
         if (star.onCurve)
             return onCurves(star, v);
         const Point x = position[v];
-        const Point step = rule(star, v) * weight + (x - last[v]) * momentum;
+        const Point step = rule(star, v) * Rule::Pull + (x - last[v]) * momentum;
         last[v] = x;
         return step;
     }

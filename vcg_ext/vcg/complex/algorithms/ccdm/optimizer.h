@@ -88,13 +88,31 @@ private:
         _report.relocations += _remesh.VertexCount();
     }
 
+    // Calls run(rule) with the rule that the parameters name.
+    template <class Run>
+    auto WithRule(const Run &run)
+    {
+        const bool uniform = _model.density.uniform;
+        switch (Relocation(_params)) {
+        case RelocationKind::CellCentroid:
+            return run(CellCentroid{_remesh, uniform});
+        case RelocationKind::Circumcentres:
+            return run(MeanCircumcentre{_remesh, uniform});
+        case RelocationKind::PatchCentroid:
+            break;
+        }
+        return run(PatchCentroid{_remesh, uniform});
+    }
+
     // Algorithm 1: Delaunay mesh, then every vertex to its centroid.
     void OptimizeLocally()
     {
-        for (int i = 0; i < _params.localIterations; ++i) {
-            Flip();
-            Sweep(PatchCentroid{_remesh, _model.density.uniform});
-        }
+        WithRule([&](const auto &rule) {
+            for (int i = 0; i < _params.localIterations; ++i) {
+                Flip();
+                Sweep(rule);
+            }
+        });
         Flip();
     }
 
@@ -105,7 +123,8 @@ private:
         Remesh best = _remesh;
         double bestEnergy = Energy(_remesh, _workers);
         _report.energy.assign(1, bestEnergy);
-        for (int i = 0; i < _params.globalIterations; ++i) {
+        const int rounds = GlobalIterations(_params);
+        for (int i = 0; i < rounds; ++i) {
             Sweep(Perturbation{_params.lambda, _random.Bits()});
             OptimizeLocally();
             const double energy = Energy(_remesh, _workers);
@@ -118,7 +137,7 @@ private:
                 _schedule.Changed();
             }
             _report.energy.push_back(bestEnergy);
-            if (!progress(static_cast<double>(i + 1) / _params.globalIterations))
+            if (!progress(static_cast<double>(i + 1) / rounds))
                 return false;
         }
         OptimizeLocally();
@@ -128,7 +147,7 @@ private:
     // The whole budget for the coarsest level, a part of it for each that is refined from it.
     bool AccelerateByLevels(const std::vector<int> &finer, const Progress &progress)
     {
-        const int count = _params.globalIterations * _params.localIterations;
+        const int count = GlobalIterations(_params) * _params.localIterations;
         const int fine = static_cast<int>(std::lround(FineShare * count));
         _report.energy.assign(1, Energy(_remesh, _workers));
         // The work of a sweep is in proportion to the vertices.
@@ -155,14 +174,18 @@ private:
         return Settle(progress);
     }
 
-    // Momentum on the cell centroid, with noise that fades out: moves past the poor local optima where
+    // Momentum on the relocation rule, with noise that fades out: moves past the poor local optima where
     // plain relocation stalls. `begin` and `end`: its part of the progress.
     bool Accelerate(int count, double noise, double begin, double end, const Progress &progress)
     {
-        const bool uniform = _model.density.uniform;
+        return WithRule([&](const auto &rule) { return AccelerateBy(rule, count, noise, begin, end, progress); });
+    }
+
+    template <class Rule>
+    bool AccelerateBy(const Rule &rule, int count, double noise, double begin, double end, const Progress &progress)
+    {
         std::vector<Point> last = _remesh.position;
-        const HeavyBall<CellCentroid> pull = {
-            {_remesh, uniform}, {{_remesh, uniform}}, 1.5, 0.6, _remesh.position, last};
+        const HeavyBall<Rule> pull = {rule, {{_remesh, _model.density.uniform}}, 0.6, _remesh.position, last};
         Flip();
         for (int i = 0; i < count; ++i) {
             const double size = noise * (1 - i / (0.6 * count));

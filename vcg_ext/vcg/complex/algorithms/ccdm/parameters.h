@@ -25,6 +25,14 @@ enum class OptimizerKind {
     Accelerated ///< momentum on the cell centroid, fading noise, closing relocations
 };
 
+/// Where a relocation sends a free vertex; each is weighted with the density. All three are centroids that a
+/// Delaunay mesh with equilateral triangles leaves in place.
+enum class RelocationKind {
+    PatchCentroid, ///< CPT: the centroid of the star (the paper's, section 2.1)
+    CellCentroid,  ///< CVT: the centroid of the Voronoi cell (Du, Faber, Gunzburger 1999)
+    Circumcentres  ///< ODT: the mean of the star's circumcentres by area (Alliez et al. 2005)
+};
+
 /// How the samples that become the output's vertices are laid on the input.
 enum class SamplerKind {
     Random, ///< drawn in proportion to the density (section 3.2)
@@ -43,9 +51,10 @@ struct Params {
     /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
     /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
-    /// Number of perturb-optimise rounds, the paper's NG; at least 0. The accelerated optimiser does NG * NL
-    /// relocations; where it starts from a coarse level, that many there and half as many at full resolution.
-    int globalIterations = 20;
+    /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 20 with the
+    /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, that many
+    /// there and half as many at full resolution.
+    std::optional<int> globalIterations;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
     int localIterations = 3;
     DensityKind density = DensityKind::Uniform;
@@ -54,6 +63,9 @@ struct Params {
     std::optional<double> densityExponent;
     OptimizerKind optimizer = OptimizerKind::Accelerated;
     SamplerKind sampler = SamplerKind::Front;
+    /// The rule of the relocations. Unset: PatchCentroid with annealing, as in the paper; CellCentroid with the
+    /// accelerated optimiser, whose last relocations are to the patch centroid whatever the rule.
+    std::optional<RelocationKind> relocation;
     /// Smallest angle that the closing polish aims at, in degrees; range [0, 45]. Unset: 40 with the
     /// accelerated optimiser, 34 with annealing.
     std::optional<double> minAngle;
@@ -71,6 +83,19 @@ struct Params {
 inline double DensityExponent(const Params &p)
 {
     return p.densityExponent.value_or(p.optimizer == OptimizerKind::Accelerated ? 2.0 : 0.2);
+}
+
+/// The relocation rule of a run.
+inline RelocationKind Relocation(const Params &p)
+{
+    return p.relocation.value_or(p.optimizer == OptimizerKind::Accelerated ? RelocationKind::CellCentroid
+                                                                           : RelocationKind::PatchCentroid);
+}
+
+/// The number of global iterations of a run.
+inline int GlobalIterations(const Params &p)
+{
+    return p.globalIterations.value_or(p.optimizer == OptimizerKind::Accelerated ? 20 : 40);
 }
 
 /// The smallest angle that a run aims at, in degrees.

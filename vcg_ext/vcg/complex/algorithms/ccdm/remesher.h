@@ -201,7 +201,7 @@ private:
             return bad("the feature angle must lie above 0 and be at most 180 degrees");
         if (!(p.lambda >= 0 && p.lambda <= 1))
             return bad("lambda must lie between 0 and 1");
-        if (p.globalIterations < 0 || p.globalIterations > 1000000)
+        if (GlobalIterations(p) < 0 || GlobalIterations(p) > 1000000)
             return bad("the number of global iterations must lie between 0 and 1000000");
         if (p.localIterations < 1 || p.localIterations > 1000000)
             return bad("the number of local iterations must lie between 1 and 1000000");
