@@ -43,7 +43,9 @@ Json QualityJson(const MeshQualityReport &q)
 Json ParametersJson(const vcg::ccdm::Params &p)
 {
     Json j;
-    j["vertices"] = p.vertexCount;
+    j["vertices"] = p.vertexCount != 0 ? Json(p.vertexCount) : Json(nullptr);
+    j["edge_length"] = p.edgeLength ? Number(*p.edgeLength) : Json(nullptr);
+    j["max_error"] = p.maxError ? Number(*p.maxError) : Json(nullptr);
     j["feature_angle"] = p.featureAngle;
     j["lambda"] = p.lambda;
     j["global_iterations"] = p.globalIterations;
@@ -91,7 +93,10 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         j["result"]["hausdorff"] = run.distance ? Number(run.distance->hausdorff) : Json(nullptr);
         j["result"]["rms"] = run.distance ? Number(run.distance->rms) : Json(nullptr);
         j["result"]["extra_vertices"] = e.extraVertices;
+        j["result"]["mean_edge_length"] = Number(e.meanEdgeLength);
     }
+    j["target"] = {
+        {"kind", NameOf(e.target)}, {"asked", Number(e.asked)}, {"reached", Number(e.reached)}, {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
     j["energy"] = e.energy;
@@ -136,6 +141,10 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     if (run.distance)
         out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2) << run.distance->hausdorff
             << ", RMS " << run.distance->rms << '\n';
+    if (run.engine.target != vcg::ccdm::TargetKind::Vertices)
+        out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
+            << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
+            << run.engine.reached << " in " << run.engine.runs << (run.engine.runs == 1 ? " run\n" : " runs\n");
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";

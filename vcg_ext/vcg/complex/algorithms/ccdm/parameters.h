@@ -31,10 +31,23 @@ enum class SamplerKind {
     Front   ///< laid out in hexagons by an advancing front
 };
 
-/// Parameters of the remesher. Values only; a default-constructed object needs just vertexCount.
+/// What a run is asked to reach.
+enum class TargetKind {
+    Vertices,   ///< a number of vertices
+    EdgeLength, ///< a mean edge length
+    MaxError    ///< a largest distance from the input
+};
+
+/// Parameters of the remesher. Values only; a default-constructed object needs just one of vertexCount,
+/// edgeLength and maxError, and exactly one.
 struct Params {
-    /// Number of vertices of the result, at least 4.
+    /// Number of vertices of the result, 4 to 100000000; 0: not given.
     int vertexCount = 0;
+    /// Mean edge length of the result, in the mesh's units, above 0; met to about 2 percent.
+    std::optional<double> edgeLength;
+    /// Largest two-sided (Hausdorff) distance between the input and the result, relative to the diagonal of the
+    /// input's bounding box; range (0, 1]. Reached, as measured, with few vertices, or the run fails.
+    std::optional<double> maxError;
     /// An edge is a feature when its two faces deviate from flat by more than this angle, in degrees,
     /// range (0, 180]. 180: only boundaries and marked edges are features.
     double featureAngle = 40.0;
@@ -79,13 +92,20 @@ inline double MinAngle(const Params &p)
     return p.minAngle.value_or(p.optimizer == OptimizerKind::Accelerated ? 40.0 : 34.0);
 }
 
+/// What a run is asked to reach; of several, the first.
+inline TargetKind TargetOf(const Params &p)
+{
+    return p.vertexCount != 0 ? TargetKind::Vertices : p.edgeLength ? TargetKind::EdgeLength : TargetKind::MaxError;
+}
+
 /// How a run ended.
 enum class Status {
     Done,             ///< the result was checked and handed out
     Cancelled,        ///< the progress callback returned false
     InvalidParameter, ///< a parameter is out of its range
     InvalidInput,     ///< the input is not a surface that can be remeshed
-    CheckFailed       ///< the result did not pass the final check and was thrown away
+    CheckFailed,      ///< the result did not pass the final check and was thrown away
+    NotReached        ///< no number of vertices that was tried came within the error asked for
 };
 
 /// Defects of the input, as counts; those that forbid remeshing make the status InvalidInput.
@@ -127,7 +147,13 @@ struct Report {
     TopologyCounts resultTopology;
     bool topologyPreserved = false;
 
-    int requestedVertices = 0;
+    TargetKind target = TargetKind::Vertices;
+    double asked = 0;   ///< the target's value: vertices, length in the mesh's units, or relative distance
+    double reached = 0; ///< what the result has of it, measured
+    int runs = 0;       ///< remeshings that it took; `seconds` is their sum, the rest is about the last that counts
+    double meanEdgeLength = 0; ///< of the result, in the mesh's units
+
+    int requestedVertices = 0; ///< asked for, or derived from another target
     /// Vertices beyond the requested ones, forced by topology or by features; 0 in the normal case.
     int extraVertices = 0;
     int featureCurves = 0;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/edge_length.h>
 #include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
@@ -20,7 +21,8 @@
 namespace vcg {
 namespace ccdm {
 
-/// From mesh tables to mesh tables: the stages of the remesher in order.
+/// From mesh tables to mesh tables: the stages of the remesher in order. Takes a vertex count or an edge
+/// length; TargetSearch (target_search.h) takes every target.
 class Remesher
 {
 public:
@@ -41,7 +43,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    const Params _params;
+    Params _params; // an edge length is turned into a vertex count
     const Progress _progress;
     Workers _workers;
     Report _report;
@@ -67,13 +69,14 @@ private:
             return false;
         Model model;
         model.surface = ReferenceSurface(std::move(prepared.mesh.position), prepared.mesh.face);
-        if (!FindFeatures(model, prepared.mesh))
+        if (!FindFeatures(model, prepared))
             return false;
 
         Remesh remesh;
         if (!AttemptAll(model, remesh))
             return false;
         WriteBack(prepared, remesh, output);
+        _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
         return true;
     }
@@ -193,9 +196,15 @@ private:
     {
         auto bad = [&](const std::string &why) { return Fail(Status::InvalidParameter, why); };
         const Params &p = _params;
-        if (p.vertexCount < 4)
+        if ((p.vertexCount != 0) + p.edgeLength.has_value() + p.maxError.has_value() != 1)
+            return bad("exactly one of the vertex count, the edge length and the largest error must be given");
+        if (p.maxError)
+            return bad("the largest error takes a search over several runs");
+        if (p.edgeLength && !(*p.edgeLength > 0 && std::isfinite(*p.edgeLength)))
+            return bad("the edge length must be above 0");
+        if (!p.edgeLength && p.vertexCount < 4)
             return bad("the vertex count must be at least 4, not " + std::to_string(p.vertexCount));
-        if (p.vertexCount > 100000000)
+        if (p.vertexCount > MostVertices)
             return bad("the vertex count must be at most 100000000, not " + std::to_string(p.vertexCount));
         if (!(p.featureAngle > 0 && p.featureAngle <= 180))
             return bad("the feature angle must lie above 0 and be at most 180 degrees");
@@ -218,6 +227,25 @@ private:
         return true;
     }
 
+    // The vertex count for the wanted edge length. What limits the gradation depends on it in turn.
+    bool CountForEdgeLength(const ReferenceSurface &surface, const std::vector<double> &phi, bool limited,
+                            double length)
+    {
+        std::vector<double> graded = phi;
+        for (int round = 0; round < (limited ? 3 : 1); ++round) {
+            const double n = VerticesForEdgeLength(surface, graded, _report.inputTopology.euler, length);
+            if (!(n <= MostVertices))
+                return Fail(Status::InvalidParameter, "the edge length takes more than 100000000 vertices");
+            _params.vertexCount = std::max(4, static_cast<int>(std::lround(n)));
+            if (limited) {
+                graded = phi;
+                LimitGradation(surface, _params.vertexCount, MostGradation, graded);
+            }
+        }
+        _report.requestedVertices = _params.vertexCount;
+        return true;
+    }
+
     void WarnOfDefects()
     {
         const InputDefects &d = _report.defects;
@@ -231,8 +259,9 @@ private:
         warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
     }
 
-    bool FindFeatures(Model &model, const MeshTables &input)
+    bool FindFeatures(Model &model, const InputMesh &prepared)
     {
+        const MeshTables &input = prepared.mesh;
         ReferenceSurface &surface = model.surface;
         const SideMarks marked = _params.useMarkedEdges ? input.marked : SideMarks();
         MarkFeatures(surface, _params.featureAngle, marked);
@@ -243,8 +272,6 @@ private:
             break;
         case DensityKind::Curvature:
             phi = CurvatureDensity(surface);
-            if (_params.optimizer == OptimizerKind::Accelerated)
-                LimitGradation(surface, _params.vertexCount, MostGradation, phi);
             break;
         case DensityKind::Quality:
             if (input.field.empty())
@@ -257,6 +284,12 @@ private:
                 x = std::max(x / largest, 1e-6);
             break;
         }
+        const bool limited =
+            _params.density == DensityKind::Curvature && _params.optimizer == OptimizerKind::Accelerated;
+        if (_params.edgeLength && !CountForEdgeLength(surface, phi, limited, *_params.edgeLength / prepared.Scale()))
+            return false;
+        if (limited)
+            LimitGradation(surface, _params.vertexCount, MostGradation, phi);
         model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
                                          DensityExponent(_params), _params.vertexCount);
         const int dropped = FalseCreases(surface, model.density.spacing, marked, _params.featureAngle).Drop();
@@ -449,6 +482,7 @@ private:
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the
     // curvature more closely.
     static constexpr double MostGradation = 0.1;
+    static constexpr int MostVertices = 100000000;
 };
 
 } // namespace ccdm
