@@ -83,6 +83,27 @@ def test_max_error_out_of_reach(remesh, samples, tmp_path):
     assert json.loads(report.read_text())["status"] == 7
 
 
+def test_narrow_parts_are_told(remesh, samples, tmp_path):
+    points, faces = plyfile.box()
+    thin = plyfile.write_ply(str(tmp_path / "thin.ply"), [(x, y, 0.03 * z) for x, y, z in points], faces)
+    report = tmp_path / "r.json"
+
+    def run(source, n):
+        text = remesh(source, tmp_path / "o.ply", "-n", n, "--report", report, "--global-iterations", 1).stdout
+        narrow = json.loads(report.read_text())["narrow"]
+        assert narrow["count"] == len(narrow["places"])
+        for place in narrow["places"]:
+            assert place["width"] < 0.7 * place["spacing"] and place["vertices"] > n and len(place["position"]) == 3
+        return text, {place["kind"] for place in narrow["places"]}
+    text, kinds = run(thin, 300)
+    assert kinds == {"thin_part"} and "the surface is thinner than the spacing allows at 1 place" in text
+    # The walls beside the holes.
+    text, kinds = run(f"{samples}/cad_part.ply", 90)
+    assert kinds == {"close_features"} and "features are closer together than the spacing allows at" in text
+    text, kinds = run(f"{samples}/cad_part.ply", 1000)
+    assert not kinds and "spacing allows" not in text
+
+
 def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
     def run(name, *extra, **options):
         assert remesh(f"{samples}/bumpy.ply", tmp_path / name, "-n", 700, *FAST, *extra, **options).returncode == 0

@@ -15,6 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using vcg::tri::MeshQualityReport;
 
+constexpr std::size_t MostListed = 1000; // entries of a list in the report
+
 Json Number(double x)
 {
     return std::isfinite(x) ? Json(x) : Json(nullptr);
@@ -74,6 +76,23 @@ Json DefectsJson(const vcg::ccdm::InputDefects &d)
     return j;
 }
 
+Json NarrowJson(const std::vector<vcg::ccdm::NarrowPlace> &places)
+{
+    Json j;
+    j["count"] = places.size();
+    j["places"] = Json::array();
+    for (const vcg::ccdm::NarrowPlace &p : places) {
+        if (j["places"].size() == MostListed)
+            break;
+        j["places"].push_back({{"kind", p.kind == vcg::ccdm::NarrowKind::ThinPart ? "thin_part" : "close_features"},
+                               {"position", p.position},
+                               {"width", Number(p.width)},
+                               {"spacing", Number(p.spacing)},
+                               {"vertices", Number(p.vertices)}});
+    }
+    return j;
+}
+
 } // namespace
 
 std::string WriteReport(const Options &options, const RunSummary &run)
@@ -99,6 +118,7 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         {"kind", NameOf(e.target)}, {"asked", Number(e.asked)}, {"reached", Number(e.reached)}, {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
+    j["narrow"] = NarrowJson(e.narrow);
     j["energy"] = e.energy;
     j["accepted"] = e.accepted;
     j["relocations"] = e.relocations;

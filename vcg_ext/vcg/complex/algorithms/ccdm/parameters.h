@@ -2,6 +2,7 @@
 #ifndef VCG_CCDM_PARAMETERS_H
 #define VCG_CCDM_PARAMETERS_H
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -138,6 +139,22 @@ struct TopologyCounts {
     }
 };
 
+/// What is narrower than the wanted spacing.
+enum class NarrowKind {
+    ThinPart,     ///< the surface: another sheet lies behind it, or it bends around on itself
+    CloseFeatures ///< the surface between two features that are not neighbours at a corner
+};
+
+/// A narrow part of the input: no mesh of the wanted spacing can have good angles there. Lengths in the mesh's
+/// units.
+struct NarrowPlace {
+    NarrowKind kind = NarrowKind::ThinPart;
+    std::array<double, 3> position = {0, 0, 0}; ///< where it is narrowest, relative to the spacing
+    double width = 0;                           ///< thickness, or distance between the features
+    double spacing = 0;                         ///< wanted edge length there
+    double vertices = 0;                        ///< vertex count whose spacing would resolve it
+};
+
 /// What a run achieved.
 struct Report {
     Status status = Status::InvalidInput;
@@ -158,7 +175,8 @@ struct Report {
     int extraVertices = 0;
     int featureCurves = 0;
     int featureCorners = 0;
-    int prunedFragments = 0; ///< feature fragments shorter than the local spacing, ignored
+    int prunedFragments = 0;         ///< feature fragments shorter than the local spacing, ignored
+    std::vector<NarrowPlace> narrow; ///< one for each narrow part, the narrowest in spacings first
 
     std::vector<double> energy; ///< F of the kept state, first the start, then after each global iteration
     int accepted = 0;           ///< global iterations whose result was kept

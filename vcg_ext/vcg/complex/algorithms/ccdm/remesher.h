@@ -17,6 +17,7 @@
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
 #include <vcg/complex/algorithms/ccdm/surface_offset.h>
+#include <vcg/complex/algorithms/ccdm/thin_parts.h>
 
 namespace vcg {
 namespace ccdm {
@@ -71,6 +72,9 @@ private:
         model.surface = ReferenceSurface(std::move(prepared.mesh.position), prepared.mesh.face);
         if (!FindFeatures(model, prepared))
             return false;
+
+        ThinParts thin(model);
+        WarnOfNarrowPlaces(thin, prepared);
 
         Remesh remesh;
         if (!AttemptAll(model, remesh))
@@ -257,6 +261,24 @@ private:
         warn(d.repeatedIndexFaces, "face that names a vertex twice was dropped",
              "faces that name a vertex twice were dropped");
         warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
+    }
+
+    void WarnOfNarrowPlaces(ThinParts &thin, const InputMesh &prepared)
+    {
+        _report.narrow = thin.Find();
+        for (NarrowPlace &p : _report.narrow) {
+            const Point at = prepared.Restore(Point(p.position[0], p.position[1], p.position[2]));
+            p.position = {at[0], at[1], at[2]};
+            const double factor = ThinParts::NarrowShare * p.spacing / std::max(p.width, 1e-12);
+            p.vertices = std::ceil(_params.vertexCount * factor * factor);
+            p.width *= prepared.Scale();
+            p.spacing *= prepared.Scale();
+        }
+        for (const NarrowKind kind : {NarrowKind::ThinPart, NarrowKind::CloseFeatures}) {
+            const std::string warning = NarrowWarning(_report.narrow, kind);
+            if (!warning.empty())
+                _report.warnings.push_back(warning);
+        }
     }
 
     bool FindFeatures(Model &model, const InputMesh &prepared)
