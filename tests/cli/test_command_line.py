@@ -104,6 +104,27 @@ def test_narrow_parts_are_told(remesh, samples, tmp_path):
     assert not kinds and "spacing allows" not in text
 
 
+def test_every_small_angle_has_a_reason(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    run = remesh(f"{samples}/bust.ply", tmp_path / "o.ply", "-n", 3000, "--report", report, "--global-iterations", 5,
+                 "--feature-angle", 180)
+    assert run.returncode == 0
+    data = json.loads(report.read_text())
+    angles = data["smallest_angle"]
+    assert angles["target"] == 40 and angles["reached"] == pytest.approx(data["result"]["angle_min"], abs=1e-6)
+    assert set(angles["reasons"]) == {"input_corner", "close_features", "thin_part", "few_vertices", "unexplained"}
+    assert angles["below"] == sum(angles["reasons"].values()) == len(angles["triangles"]) > 0
+    assert f"triangles below 40 deg: {angles['below']} (" in run.stdout
+    # The boundary of the neck is jagged.
+    assert angles["reasons"]["close_features"] > 0
+    for triangle in angles["triangles"]:
+        assert 0 <= triangle["face"] < data["result"]["faces"] and triangle["angle"] < 40
+        assert len(triangle["position"]) == 3 and triangle["reason"] in angles["reasons"]
+    assert remesh(f"{samples}/bust.ply", tmp_path / "o.ply", "-n", 3000, "--report", report, *FAST, "--feature-angle",
+                  180, "--min-angle", 0).returncode == 0
+    assert json.loads(report.read_text())["smallest_angle"]["below"] == 0
+
+
 def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
     def run(name, *extra, **options):
         assert remesh(f"{samples}/bumpy.ply", tmp_path / name, "-n", 700, *FAST, *extra, **options).returncode == 0

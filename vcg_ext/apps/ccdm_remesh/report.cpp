@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -93,6 +94,31 @@ Json NarrowJson(const std::vector<vcg::ccdm::NarrowPlace> &places)
     return j;
 }
 
+constexpr std::array<const char *, vcg::ccdm::SmallAngleReasonCount> reasons = {
+    "input_corner", "close_features", "thin_part", "few_vertices", "unexplained"};
+constexpr std::array<const char *, vcg::ccdm::SmallAngleReasonCount> reasonNames = {
+    "at input corners", "between close features", "on thin parts", "for few vertices", "unexplained"};
+
+Json AnglesJson(const vcg::ccdm::AngleCertificate &c)
+{
+    Json j;
+    j["target"] = Number(c.target);
+    j["reached"] = Number(c.reached);
+    j["below"] = c.below.size();
+    for (int k = 0; k < vcg::ccdm::SmallAngleReasonCount; ++k)
+        j["reasons"][reasons[k]] = c.Count(static_cast<vcg::ccdm::SmallAngleReason>(k));
+    j["triangles"] = Json::array();
+    for (const vcg::ccdm::SmallAngle &a : c.below) {
+        if (j["triangles"].size() == MostListed)
+            break;
+        j["triangles"].push_back({{"face", a.face},
+                                  {"angle", Number(a.degrees)},
+                                  {"position", a.position},
+                                  {"reason", reasons[static_cast<std::size_t>(a.reason)]}});
+    }
+    return j;
+}
+
 } // namespace
 
 std::string WriteReport(const Options &options, const RunSummary &run)
@@ -118,6 +144,7 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         {"kind", NameOf(e.target)}, {"asked", Number(e.asked)}, {"reached", Number(e.reached)}, {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
+    j["smallest_angle"] = run.after ? AnglesJson(e.angles) : Json(nullptr);
     j["narrow"] = NarrowJson(e.narrow);
     j["energy"] = e.energy;
     j["accepted"] = e.accepted;
@@ -165,6 +192,16 @@ void PrintTable(std::ostream &out, const RunSummary &run)
         out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
             << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
             << run.engine.reached << " in " << run.engine.runs << (run.engine.runs == 1 ? " run\n" : " runs\n");
+    const vcg::ccdm::AngleCertificate &angles = run.engine.angles;
+    out << "  triangles below " << std::defaultfloat << std::setprecision(4) << angles.target
+        << " deg: " << angles.below.size();
+    const char *before = " (";
+    for (int k = 0; k < vcg::ccdm::SmallAngleReasonCount; ++k)
+        if (const int count = angles.Count(static_cast<vcg::ccdm::SmallAngleReason>(k))) {
+            out << before << count << ' ' << reasonNames[k];
+            before = ", ";
+        }
+    out << (angles.below.empty() ? "\n" : ")\n");
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";

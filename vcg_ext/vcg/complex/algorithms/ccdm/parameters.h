@@ -155,6 +155,39 @@ struct NarrowPlace {
     double vertices = 0;                        ///< vertex count whose spacing would resolve it
 };
 
+/// What stands in the way of a triangle's smallest angle.
+enum class SmallAngleReason {
+    InputCorner,   ///< two feature curves meet at a corner of the triangle at less than the target
+    CloseFeatures, ///< it touches a feature that is closer to another, or to another part of itself, than the spacing
+    ThinPart,      ///< the surface is thinner there than the spacing
+    FewVertices,   ///< the spacing is larger than the radius of curvature of the surface or of a feature
+    Unexplained    ///< none of these: the target was just not reached
+};
+constexpr int SmallAngleReasonCount = 5;
+
+/// A triangle of the result whose smallest angle is below the target.
+struct SmallAngle {
+    int face = 0;                               ///< index in the result
+    double degrees = 0;                         ///< its smallest angle
+    std::array<double, 3> position = {0, 0, 0}; ///< its centroid
+    SmallAngleReason reason = SmallAngleReason::Unexplained;
+};
+
+/// The smallest angle of a result, and a reason for each triangle below the target. In degrees.
+struct AngleCertificate {
+    double target = 0;  ///< MinAngle of the parameters
+    double reached = 0; ///< smallest angle of the result
+    std::vector<SmallAngle> below;
+
+    int Count(SmallAngleReason reason) const
+    {
+        int count = 0;
+        for (const SmallAngle &a : below)
+            count += a.reason == reason;
+        return count;
+    }
+};
+
 /// What a run achieved.
 struct Report {
     Status status = Status::InvalidInput;
@@ -183,6 +216,7 @@ struct Report {
     long long relocations = 0;  ///< vertex relocations tried, all sweeps together
     long long flips = 0;        ///< edge flips done by the optimiser
     int foldedEdges = 0;        ///< edges of the result whose faces turn by more than 150 degrees
+    AngleCertificate angles;
 
     std::vector<std::pair<std::string, double>> seconds; ///< wall time of each phase, in order
     std::vector<std::string> warnings;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/certificate.h>
 #include <vcg/complex/algorithms/ccdm/edge_length.h>
 #include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
@@ -79,6 +80,7 @@ private:
         Remesh remesh;
         if (!AttemptAll(model, remesh))
             return false;
+        Certify(model, remesh, thin, prepared);
         WriteBack(prepared, remesh, output);
         _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
@@ -441,6 +443,15 @@ private:
             return Fail(Status::CheckFailed, "the result was thrown away: it has only " +
                                                  std::to_string(remesh.VertexCount()) + " vertices");
         return true;
+    }
+
+    void Certify(const Model &model, const Remesh &remesh, ThinParts &thin, const InputMesh &prepared)
+    {
+        _report.angles = Certifier(model, remesh, thin, MinAngle(_params), _report.inputTopology.orientable).Run();
+        for (SmallAngle &a : _report.angles.below) {
+            const Point p = prepared.Restore(Point(a.position[0], a.position[1], a.position[2]));
+            a.position = {p[0], p[1], p[2]};
+        }
     }
 
     static void WriteBack(const InputMesh &prepared, const Remesh &remesh, MeshTables &output)

@@ -172,6 +172,19 @@ public:
         return width;
     }
 
+    /// Unit normal averaged over the surface within `reach` of a point of a face, without crossing a feature.
+    Point MeanNormal(int face, const Point &p, double reach)
+    {
+        Point sum(0, 0, 0);
+        Flood(face, p, reach, false, [&](int t) {
+            const Point n = _surface.AreaVector(t);
+            const double size = Norm(n), most = reach * reach;
+            sum += n * (size > most ? most / size : 1);
+            return true;
+        });
+        return Normalized(sum);
+    }
+
 private:
     struct Sample {
         Point point, normal;
