@@ -290,7 +290,7 @@ private:
             std::isfinite(last.error) ? Predicted(trials, bound * std::pow(0.97, 1 + failed)) : 2.0 * last.vertices;
         n = std::clamp(n, last.vertices / MostStep, last.vertices * MostStep);
         if (failed > 0)
-            n = std::clamp(n, 1.05 * largest, FullStep * largest);
+            n = std::clamp(n, (1 + 0.05 * failed) * largest, FullStep * largest);
         return static_cast<int>(std::clamp(n, 4.0, static_cast<double>(most)));
     }
 
