@@ -15,7 +15,7 @@ FAST = ("--global-iterations", "3", "--quiet")
 
 def test_help_names_every_option(remesh):
     text = remesh("--help").stdout
-    for option in ("--vertices", "--feature-angle", "--lambda", "--global-iterations", "--local-iterations", "--density",
+    for option in ("--vertices", "--edge-length", "--max-error", "--feature-angle", "--lambda", "--global-iterations", "--local-iterations", "--density",
                    "--density-exponent", "--approximation", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
         assert option in text
     assert remesh("--version").stdout.startswith("ccdm_remesh ")
@@ -49,6 +49,80 @@ def test_report_has_every_key(remesh, samples, tmp_path):
     assert data["parameters"]["seed"] == 7 and data["parameters"]["density_exponent"] == 2
     assert data["seconds"]["total"] > 0 and data["seconds"]["optimising"] > 0
     assert 0 < data["result"]["hausdorff"] < 0.02
+
+
+def test_edge_length_is_met(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    assert remesh(f"{samples}/bumpy.ply", tmp_path / "o.ply", "--edge-length", 0.09, "--report", report,
+                  *FAST).returncode == 0
+    data = json.loads(report.read_text())
+    assert data["target"]["kind"] == "edge_length" and data["target"]["asked"] == 0.09
+    assert data["target"]["reached"] == data["result"]["mean_edge_length"] == pytest.approx(0.09, rel=0.02)
+    assert data["target"]["runs"] == 1
+    assert data["parameters"]["edge_length"] == 0.09 and data["parameters"]["vertices"] is None
+
+
+def test_max_error_is_kept(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    run = remesh(f"{samples}/bumpy.ply", tmp_path / "o.ply", "--max-error", 0.005, "--report", report,
+                 "--global-iterations", 8)
+    assert run.returncode == 0 and "largest error: asked 0.005, reached" in run.stdout
+    data = json.loads(report.read_text())
+    assert data["target"]["kind"] == "max_error" and 1 < data["target"]["runs"] <= 8
+    assert 0.002 < data["target"]["reached"] <= 0.005
+    assert data["result"]["hausdorff"] <= 0.005
+    assert len(data["energy"]) == 9
+
+
+def test_max_error_out_of_reach(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    run = remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", "--max-error", 1e-9, "--report", report,
+                 "--global-iterations", 0, "--quiet")
+    assert run.returncode == 7 and "came within" in run.stderr
+    assert not (tmp_path / "o.ply").exists()
+    assert json.loads(report.read_text())["status"] == 7
+
+
+def test_narrow_parts_are_told(remesh, samples, tmp_path):
+    points, faces = plyfile.box()
+    thin = plyfile.write_ply(str(tmp_path / "thin.ply"), [(x, y, 0.03 * z) for x, y, z in points], faces)
+    report = tmp_path / "r.json"
+
+    def run(source, n):
+        text = remesh(source, tmp_path / "o.ply", "-n", n, "--report", report, "--global-iterations", 1).stdout
+        narrow = json.loads(report.read_text())["narrow"]
+        assert narrow["count"] == len(narrow["places"])
+        for place in narrow["places"]:
+            assert place["width"] < 0.7 * place["spacing"] and place["vertices"] > n and len(place["position"]) == 3
+        return text, {place["kind"] for place in narrow["places"]}
+    text, kinds = run(thin, 300)
+    assert kinds == {"thin_part"} and "the surface is thinner than the spacing allows at 1 place" in text
+    # The walls beside the holes.
+    text, kinds = run(f"{samples}/cad_part.ply", 90)
+    assert kinds == {"close_features"} and "features are closer together than the spacing allows at" in text
+    text, kinds = run(f"{samples}/cad_part.ply", 1000)
+    assert not kinds and "spacing allows" not in text
+
+
+def test_every_small_angle_has_a_reason(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    run = remesh(f"{samples}/bust.ply", tmp_path / "o.ply", "-n", 3000, "--report", report, "--global-iterations", 5,
+                 "--feature-angle", 180)
+    assert run.returncode == 0
+    data = json.loads(report.read_text())
+    angles = data["smallest_angle"]
+    assert angles["target"] == 40 and angles["reached"] == pytest.approx(data["result"]["angle_min"], abs=1e-6)
+    assert set(angles["reasons"]) == {"input_corner", "close_features", "thin_part", "few_vertices", "unexplained"}
+    assert angles["below"] == sum(angles["reasons"].values()) == len(angles["triangles"]) > 0
+    assert f"triangles below 40 deg: {angles['below']} (" in run.stdout
+    # The boundary of the neck is jagged.
+    assert angles["reasons"]["close_features"] > 0
+    for triangle in angles["triangles"]:
+        assert 0 <= triangle["face"] < data["result"]["faces"] and triangle["angle"] < 40
+        assert len(triangle["position"]) == 3 and triangle["reason"] in angles["reasons"]
+    assert remesh(f"{samples}/bust.ply", tmp_path / "o.ply", "-n", 3000, "--report", report, *FAST, "--feature-angle",
+                  180, "--min-angle", 0).returncode == 0
+    assert json.loads(report.read_text())["smallest_angle"]["below"] == 0
 
 
 def test_same_bytes_twice_and_another_seed_differs(remesh, samples, tmp_path):
@@ -120,6 +194,9 @@ def test_density_from_vertex_quality(remesh, tmp_path):
     ("-n", "100", "--feature-angle", "0"), ("-n", "100", "--feature-angle", "181"), ("-n", "100", "--lambda", "2"),
     ("-n", "100", "--density", "red"), ("-n", "100", "--optimizer", "magic"), ("-n", "100", "--sampler", "x"),
     ("-n", "100", "--global-iterations", "-1"), ("-n", "100", "--local-iterations", "0"), ("-n", "100", "--seed", "-1"),
+    ("--edge-length", "0"), ("--edge-length", "-1"), ("--edge-length", "nan"), ("--edge-length", "1e-9"),
+    ("--max-error", "0"), ("--max-error", "2"), ("--max-error", "nan"), ("-n", "100", "--edge-length", "0.1"),
+    ("-n", "100", "--max-error", "0.1"), ("--edge-length", "0.1", "--max-error", "0.1"),
     ("-n", "100", "--no-such-option")])
 def test_wrong_usage(remesh, samples, tmp_path, args):
     run = remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", *args)

@@ -118,6 +118,53 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, EverySurface,
                                           testing::Values(1U, 2U)),
                          NameOf);
 
+TEST(Targets, EverySurfaceMeetsItsEdgeLength)
+{
+    for (const Case &c : Cases()) {
+        Report first;
+        const MeshTables input = meshes::Tables(c.shape);
+        Remeshed(input, Parameters(c, 1500, 1), &first);
+        Params p = Parameters(c, 0, 1);
+        p.edgeLength = first.meanEdgeLength;
+        MeshTables out;
+        const Report r = vcg::ccdm::TargetSearch(p, nullptr).Run(input, out);
+        ASSERT_EQ(r.status, Status::Done) << r.message;
+        EXPECT_NEAR(r.reached, first.meanEdgeLength, 0.02 * first.meanEdgeLength) << c.name;
+        EXPECT_LE(r.runs, 2) << c.name;
+        EXPECT_NEAR(static_cast<double>(out.position.size()), 1500, 60) << c.name;
+    }
+}
+
+TEST(Targets, SurfacesOfAllKindsKeepWithinTheirLargestError)
+{
+    // Smooth, creased, noisy with a boundary, one-sided.
+    for (const std::size_t k : {1, 4, 8, 9}) {
+        const Case &c = Cases()[k];
+        Params p = Parameters(c, 0, 1);
+        p.maxError = 0.01;
+        p.globalIterations = 5;
+        const MeshTables input = meshes::Tables(c.shape);
+        MeshTables out;
+        const Report r = vcg::ccdm::TargetSearch(p, nullptr).Run(input, out);
+        ASSERT_EQ(r.status, Status::Done) << c.name << ": " << r.message;
+        MeshD a, b;
+        meshes::Fill(a, c.shape);
+        meshes::Fill(b, meshes::ToShape(out));
+        EXPECT_LE(vcg::tri::MeshQuality<MeshD>::Distance(a, b, 50000).hausdorff, 0.01) << c.name;
+    }
+}
+
+TEST(Certificate, AgreesWithTheMetricsOnEverySurface)
+{
+    for (const Case &c : Cases())
+        for (const int n : {60, 1000}) {
+            Report r;
+            const MeshTables out = Remeshed(meshes::Tables(c.shape), Parameters(c, n, 1), &r);
+            EXPECT_NEAR(r.angles.reached, Measured(out).angleMin, 1e-6) << c.name;
+            EXPECT_EQ(r.angles.below.empty(), r.angles.reached >= 40 - 1e-6) << c.name;
+        }
+}
+
 TEST(Determinism, SameSeedSameBytes)
 {
     for (const Case &c : Cases()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/angle_polish.h>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
@@ -27,6 +29,29 @@ TEST(SmallestAngle, AgreesWithTheArcTangent)
         EXPECT_NEAR(SmallestAngle(p[0], p[1], p[2]), least, 1.5e-4);
     }
     EXPECT_EQ(SmallestAngle(Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)), 0);
+}
+
+TEST(SmallestAngleGradient, AgreesWithFiniteDifferences)
+{
+    Random random(9);
+    int compared = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Point u(random.Unit(), random.Unit(), random.Unit()), w(random.Unit(), random.Unit(), random.Unit());
+        const double side[3] = {SquaredNorm(u), SquaredNorm(w), SquaredNorm(u - w)};
+        const double least = *std::min_element(side, side + 3);
+        // Away from the places where another angle becomes the smallest, and from flat triangles.
+        if (std::count_if(side, side + 3, [&](double l) { return l < 1.1 * least; }) > 1 ||
+            Norm(Cross(u, w)) < 0.2 * SquaredNorm(u))
+            continue;
+        const Point gradient = SmallestAngleGradient(u, w, Cross(u, w));
+        for (const Point &d : {Normalized(u), Normalized(w), Normalized(Cross(u, w))}) {
+            const double step = 0.02 * std::sqrt(least);
+            const double slope = (SmallestAngle(d * step, u, w) - SmallestAngle(d * -step, u, w)) / (2 * step);
+            EXPECT_NEAR(Dot(gradient, d), slope, 0.03 / std::sqrt(least));
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 500);
 }
 
 TEST(AnglePolish, RaisesTheMeanSmallestAngleAndKeepsTheSurface)

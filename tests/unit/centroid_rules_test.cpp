@@ -53,11 +53,12 @@ struct Plane {
         relocator.Sweep(Perturbation{0.35, random.Bits()});
         DelaunayFlipper(meshes::Alone()).Run(remesh);
     }
+    template <class Rule = CellCentroid>
     Point Displacement(int v, bool uniform)
     {
         // The rule as a sweep applies it: a probe keeps what it returns and moves nothing.
         Point found(0, 0, 0);
-        const CellCentroid rule{remesh, uniform};
+        const Rule rule{remesh, uniform};
         Relocator(model, remesh).Sweep([&](const LocalStar &star, int w) {
             if (w == v)
                 found = rule(star, w);
@@ -106,6 +107,47 @@ TEST(CellCentroid, IsClippedAtTheBoundary)
     }
 }
 
+TEST(MeanCircumcentre, LeadsToTheLeastInterpolationErrorOfTheStar)
+{
+    // Chen, Holst 2011: with the ring fixed, the mean circumcentre minimises the integral of the linear
+    // interpolation of |x|^2, up to a constant the sum over the triangles of area times the sum of the corners' |x|^2.
+    Plane plane(true);
+    for (int v = 0; v < plane.remesh.VertexCount(); ++v) {
+        if (plane.remesh.place[v].kind != VertexKind::Free)
+            continue;
+        const auto error = [&](const Point &at) {
+            double sum = 0;
+            plane.remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+                const Triangle &T = plane.remesh.mesh.triangle[SideTriangle(s)];
+                const int i = T.IndexOf(v);
+                const Point &a = plane.remesh.position[T.v[Next(i)]], &b = plane.remesh.position[T.v[Prev(i)]];
+                sum += std::abs(Cross(a - at, b - at)[2]) * (SquaredNorm(at) + SquaredNorm(a) + SquaredNorm(b));
+                return true;
+            });
+            return sum;
+        };
+        const Point end = plane.remesh.position[v] + plane.Displacement<MeanCircumcentre>(v, true);
+        for (int k = 0; k < 8; ++k) {
+            const Point aside(0.003 * std::cos(k * Pi / 4), 0.003 * std::sin(k * Pi / 4), 0);
+            EXPECT_GT(error(end + aside), error(end) - 1e-12);
+        }
+    }
+}
+
+TEST(MeanCircumcentre, WeighsByTheDensity)
+{
+    Plane plane(false);
+    int moved = 0;
+    for (int v = 0; v < plane.remesh.VertexCount(); ++v)
+        if (plane.remesh.place[v].kind == VertexKind::Free) {
+            const Point dense = plane.Displacement<MeanCircumcentre>(v, false);
+            const Point even = plane.Displacement<MeanCircumcentre>(v, true);
+            moved += Norm(dense - even) > 1e-4;
+            EXPECT_LT(Norm(dense - even), 0.05);
+        }
+    EXPECT_GT(moved, 20);
+}
+
 TEST(HeavyBall, ConvergesToTheRulesFixedPointSooner)
 {
     const Model model = meshes::MakeModel(shapes::Bumpy(4), 2562, 180);
@@ -117,7 +159,7 @@ TEST(HeavyBall, ConvergesToTheRulesFixedPointSooner)
         for (int i = 0; i < 3; ++i)
             relocator.Sweep(Perturbation{0.5, random.Bits()});
         std::vector<Point> last = r.position;
-        const HeavyBall<CellCentroid> pull = {{r, true}, {{r, true}}, 1.5, 0.6, r.position, last};
+        const HeavyBall<CellCentroid> pull = {{r, true}, {{r, true}}, 0.6, r.position, last};
         for (int i = 0; i < 30; ++i) {
             flipper.Run(r);
             if (heavy)

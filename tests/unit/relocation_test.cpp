@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include <vcg/complex/algorithms/ccdm/delaunay.h>
 
 #include "support/meshes.h"
 
@@ -154,6 +158,65 @@ TEST(Relocator, TangentialStepsDoNotShrinkASphere)
     for (int i = 0; i < 30; ++i)
         relocator.Sweep(PatchCentroid{r, true});
     EXPECT_NEAR(area() / before, 1, 0.002);
+}
+
+TEST(Relocator, KnownRingsChangeNothing)
+{
+    // Sweeps and flips in turn, with rings that are kept and without: the same stars, so the same positions up to
+    // the order of the sums. A ring that a flip has made stale would show at once.
+    const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
+    Remesh walked = meshes::AsRemesh(model), known = walked;
+    known.mesh.KeepRings();
+    long long flips = 0;
+    for (int i = 0; i < 12; ++i) {
+        for (Remesh *r : {&walked, &known}) {
+            Relocator relocator(model, *r);
+            relocator.Sweep(Perturbation{0.3, 7U + static_cast<unsigned>(i)});
+            flips += DelaunayFlipper(meshes::Alone()).Run(*r);
+            relocator.Sweep(CellCentroid{*r, true});
+        }
+        for (int v = 0; v < known.VertexCount(); ++v) {
+            const Triangulation::Ring *ring = known.mesh.KnownRing(v);
+            if (ring == nullptr)
+                continue;
+            Star star;
+            known.mesh.GatherStar(v, star);
+            const int count = static_cast<int>(std::find(ring->begin(), ring->end(), -1) - ring->begin());
+            ASSERT_EQ(count, star.Triangles());
+            EXPECT_TRUE(std::is_permutation(star.outer.begin(), star.outer.end(), ring->begin()));
+        }
+    }
+    EXPECT_GT(flips, 100);
+    for (int v = 0; v < known.VertexCount(); ++v)
+        ASSERT_LT(Norm(known.position[v] - walked.position[v]), 1e-6);
+}
+
+TEST(Relocator, AscendFollowsTheGradientAndRaisesTheScore)
+{
+    const Model model = meshes::MakeModel(shapes::FlatGrid(8), 81, 180);
+    Remesh r = meshes::AsRemesh(model);
+    const Point target(0.45, 0.53, 0);
+    int v = 0;
+    while (r.place[v].kind != VertexKind::Free || Norm(r.position[v] - target) > 0.13)
+        ++v;
+    const double before = Norm(r.position[v] - target);
+    const Point start = r.position[v];
+    Relocator relocator(model, r);
+    const auto nearness = [&](const LocalStar &, const Point &q, Point *gradient) {
+        const Point d = target - start - q;
+        if (gradient != nullptr)
+            *gradient += d;
+        return -Norm(d);
+    };
+    EXPECT_TRUE(relocator.Ascend(v, 0.2, nearness));
+    EXPECT_LT(Norm(r.position[v] - target), before);
+    EXPECT_GT(Dot(r.position[v] - start, target - start), 0.99 * Norm(r.position[v] - start) * before);
+    // Down the same slope it does not go.
+    EXPECT_FALSE(relocator.Ascend(v, 0.2, [](const LocalStar &, const Point &q, Point *gradient) {
+        if (gradient != nullptr)
+            *gradient += Point(1, 0, 0);
+        return -SquaredNorm(q);
+    }));
 }
 
 TEST(Perturbation, StepsLieInTheTangentPlaneWithinLambda)

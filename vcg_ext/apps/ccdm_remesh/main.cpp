@@ -28,6 +28,7 @@ enum ExitStatus {
     Refused = 4,
     NotWritten = 5,
     CheckFailed = 6,
+    NotReached = 7,
     Interrupted = 130
 };
 
@@ -58,6 +59,8 @@ int ExitStatusOf(Status s)
         return Refused;
     case Status::CheckFailed:
         return CheckFailed;
+    case Status::NotReached:
+        return NotReached;
     }
     return CheckFailed;
 }

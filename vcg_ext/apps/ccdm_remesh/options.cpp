@@ -15,6 +15,7 @@ using vcg::ccdm::DensityKind;
 using vcg::ccdm::OptimizerKind;
 using vcg::ccdm::RelocationKind;
 using vcg::ccdm::SamplerKind;
+using vcg::ccdm::TargetKind;
 
 const std::map<std::string, DensityKind> densities = {
     {"uniform", DensityKind::Uniform}, {"curvature", DensityKind::Curvature}, {"quality", DensityKind::Quality}};
@@ -23,6 +24,8 @@ const std::map<std::string, OptimizerKind> optimizers = {{"accelerated", Optimiz
 const std::map<std::string, RelocationKind> relocations = {{"cpt", RelocationKind::PatchCentroid},
                                                            {"cvt", RelocationKind::CellCentroid},
                                                            {"odt", RelocationKind::Circumcentres}};
+const std::map<std::string, TargetKind> targets = {
+    {"vertices", TargetKind::Vertices}, {"edge_length", TargetKind::EdgeLength}, {"max_error", TargetKind::MaxError}};
 const std::map<std::string, SamplerKind> samplers = {{"front", SamplerKind::Front}, {"random", SamplerKind::Random}};
 
 template <class Kind>
@@ -34,11 +37,23 @@ const char *Lookup(const std::map<std::string, Kind> &names, Kind kind)
     return "";
 }
 
+void AddTarget(CLI::App &app, vcg::ccdm::Params &p)
+{
+    CLI::Option_group *target = app.add_option_group("Target", "exactly one is required");
+    target->add_option("-n,--vertices", p.vertexCount, "number of vertices of the result, 4 to 100000000")
+        ->check(CLI::Range(4, 100000000));
+    target->add_option("--edge-length", p.edgeLength, "mean edge length of the result, in the mesh's units, above 0")
+        ->check(CLI::Range(1e-300, 1e300));
+    target
+        ->add_option("--max-error", p.maxError,
+                     "largest distance between input and result, relative to the input's bounding-box diagonal, above "
+                     "0 up to 1; the fewest vertices that reach it are looked for in up to 8 runs")
+        ->check(CLI::Range(1e-12, 1.0));
+    target->require_option(1);
+}
+
 void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
 {
-    app.add_option("-n,--vertices", p.vertexCount, "number of vertices of the result, 4 to 100000000")
-        ->required()
-        ->check(CLI::Range(4, 100000000));
     app.add_option("--feature-angle", p.featureAngle,
                    "edges whose faces turn by more than this are kept as features, degrees, above 0 up to 180; "
                    "180: boundaries only")
@@ -98,6 +113,10 @@ const char *NameOf(SamplerKind k)
 {
     return Lookup(samplers, k);
 }
+const char *NameOf(TargetKind k)
+{
+    return Lookup(targets, k);
+}
 
 int ParseArguments(int argc, char **argv, Options &options)
 {
@@ -105,9 +124,10 @@ int ParseArguments(int argc, char **argv, Options &options)
                  "triangles with the wanted number of vertices, the input's topology and its sharp features.",
                  "ccdm_remesh");
     app.footer("Formats: ply, off, obj, stl. Exit status: 0 done, 2 wrong usage, 3 input unreadable, 4 input refused, "
-               "5 output not written, 6 result failed its check, 130 interrupted.");
+               "5 output not written, 6 result failed its check, 7 largest error not reached, 130 interrupted.");
     app.add_option("INPUT", options.input, "mesh to read")->required();
     app.add_option("OUTPUT", options.output, "mesh to write")->required();
+    AddTarget(app, options.params);
     AddParameters(app, options.params);
     app.add_option("--report", options.report, "file for a JSON report of what was achieved");
     app.add_flag("--quiet", options.quiet, "print errors only");

@@ -21,6 +21,7 @@ const char *NameOf(vcg::ccdm::DensityKind k);
 const char *NameOf(vcg::ccdm::OptimizerKind k);
 const char *NameOf(vcg::ccdm::RelocationKind k);
 const char *NameOf(vcg::ccdm::SamplerKind k);
+const char *NameOf(vcg::ccdm::TargetKind k);
 
 /// Reads the arguments. Returns -1 to go on, else the exit status (0 after --help and --version, 2 for
 /// wrong usage, which has been explained on standard error).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report.h"
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iomanip>
@@ -14,6 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using vcg::tri::MeshQualityReport;
+
+constexpr std::size_t MostListed = 1000; // entries of a list in the report
 
 Json Number(double x)
 {
@@ -43,7 +46,9 @@ Json QualityJson(const MeshQualityReport &q)
 Json ParametersJson(const vcg::ccdm::Params &p)
 {
     Json j;
-    j["vertices"] = p.vertexCount;
+    j["vertices"] = p.vertexCount != 0 ? Json(p.vertexCount) : Json(nullptr);
+    j["edge_length"] = p.edgeLength ? Number(*p.edgeLength) : Json(nullptr);
+    j["max_error"] = p.maxError ? Number(*p.maxError) : Json(nullptr);
     j["feature_angle"] = p.featureAngle;
     j["lambda"] = p.lambda;
     j["global_iterations"] = GlobalIterations(p);
@@ -73,6 +78,48 @@ Json DefectsJson(const vcg::ccdm::InputDefects &d)
     return j;
 }
 
+Json NarrowJson(const std::vector<vcg::ccdm::NarrowPlace> &places)
+{
+    Json j;
+    j["count"] = places.size();
+    j["places"] = Json::array();
+    for (const vcg::ccdm::NarrowPlace &p : places) {
+        if (j["places"].size() == MostListed)
+            break;
+        j["places"].push_back({{"kind", p.kind == vcg::ccdm::NarrowKind::ThinPart ? "thin_part" : "close_features"},
+                               {"position", p.position},
+                               {"width", Number(p.width)},
+                               {"spacing", Number(p.spacing)},
+                               {"vertices", Number(p.vertices)}});
+    }
+    return j;
+}
+
+constexpr std::array<const char *, vcg::ccdm::SmallAngleReasonCount> reasons = {
+    "input_corner", "close_features", "thin_part", "few_vertices", "unexplained"};
+constexpr std::array<const char *, vcg::ccdm::SmallAngleReasonCount> reasonNames = {
+    "at input corners", "between close features", "on thin parts", "for few vertices", "unexplained"};
+
+Json AnglesJson(const vcg::ccdm::AngleCertificate &c)
+{
+    Json j;
+    j["target"] = Number(c.target);
+    j["reached"] = Number(c.reached);
+    j["below"] = c.below.size();
+    for (int k = 0; k < vcg::ccdm::SmallAngleReasonCount; ++k)
+        j["reasons"][reasons[k]] = c.Count(static_cast<vcg::ccdm::SmallAngleReason>(k));
+    j["triangles"] = Json::array();
+    for (const vcg::ccdm::SmallAngle &a : c.below) {
+        if (j["triangles"].size() == MostListed)
+            break;
+        j["triangles"].push_back({{"face", a.face},
+                                  {"angle", Number(a.degrees)},
+                                  {"position", a.position},
+                                  {"reason", reasons[static_cast<std::size_t>(a.reason)]}});
+    }
+    return j;
+}
+
 } // namespace
 
 std::string WriteReport(const Options &options, const RunSummary &run)
@@ -92,9 +139,14 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         j["result"]["hausdorff"] = run.distance ? Number(run.distance->hausdorff) : Json(nullptr);
         j["result"]["rms"] = run.distance ? Number(run.distance->rms) : Json(nullptr);
         j["result"]["extra_vertices"] = e.extraVertices;
+        j["result"]["mean_edge_length"] = Number(e.meanEdgeLength);
     }
+    j["target"] = {
+        {"kind", NameOf(e.target)}, {"asked", Number(e.asked)}, {"reached", Number(e.reached)}, {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
+    j["smallest_angle"] = run.after ? AnglesJson(e.angles) : Json(nullptr);
+    j["narrow"] = NarrowJson(e.narrow);
     j["energy"] = e.energy;
     j["accepted"] = e.accepted;
     j["relocations"] = e.relocations;
@@ -137,6 +189,20 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     if (run.distance)
         out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2) << run.distance->hausdorff
             << ", RMS " << run.distance->rms << '\n';
+    if (run.engine.target != vcg::ccdm::TargetKind::Vertices)
+        out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
+            << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
+            << run.engine.reached << " in " << run.engine.runs << (run.engine.runs == 1 ? " run\n" : " runs\n");
+    const vcg::ccdm::AngleCertificate &angles = run.engine.angles;
+    out << "  triangles below " << std::defaultfloat << std::setprecision(4) << angles.target
+        << " deg: " << angles.below.size();
+    const char *before = " (";
+    for (int k = 0; k < vcg::ccdm::SmallAngleReasonCount; ++k)
+        if (const int count = angles.Count(static_cast<vcg::ccdm::SmallAngleReason>(k))) {
+            out << before << count << ' ' << reasonNames[k];
+            before = ", ";
+        }
+    out << (angles.below.empty() ? "\n" : ")\n");
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";

@@ -7,7 +7,7 @@
 
 #include <vcg/complex/complex.h>
 
-#include <vcg/complex/algorithms/ccdm/remesher.h>
+#include <vcg/complex/algorithms/ccdm/target_search.h>
 
 namespace vcg {
 namespace tri {
@@ -32,9 +32,9 @@ public:
     static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr)
     {
         ccdm::MeshTables result;
-        ccdm::Remesher remesher(
+        ccdm::TargetSearch search(
             params, [progress](int at, const char *phase) { return progress == nullptr || progress(at, phase); });
-        Report report = remesher.Run(Import(input, params), result);
+        Report report = search.Run(Import(input, params), result);
         if (report.status == ccdm::Status::Done)
             Export(result, output);
         return report;

@@ -43,6 +43,8 @@ public:
 
     /// Back from unit size to the caller's coordinates.
     Point Restore(const Point &p) const { return p * _scale + _center; }
+    /// The caller's length of one unit.
+    double Scale() const { return _scale; }
 
 private:
     Point _center = Point(0, 0, 0);

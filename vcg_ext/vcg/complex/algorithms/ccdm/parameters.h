@@ -2,6 +2,7 @@
 #ifndef VCG_CCDM_PARAMETERS_H
 #define VCG_CCDM_PARAMETERS_H
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,10 +40,23 @@ enum class SamplerKind {
     Front   ///< laid out in hexagons by an advancing front
 };
 
-/// Parameters of the remesher. Values only; a default-constructed object needs just vertexCount.
+/// What a run is asked to reach.
+enum class TargetKind {
+    Vertices,   ///< a number of vertices
+    EdgeLength, ///< a mean edge length
+    MaxError    ///< a largest distance from the input
+};
+
+/// Parameters of the remesher. Values only; a default-constructed object needs just one of vertexCount,
+/// edgeLength and maxError, and exactly one.
 struct Params {
-    /// Number of vertices of the result, at least 4.
+    /// Number of vertices of the result, 4 to 100000000; 0: not given.
     int vertexCount = 0;
+    /// Mean edge length of the result, in the mesh's units, above 0; met to about 2 percent.
+    std::optional<double> edgeLength;
+    /// Largest two-sided (Hausdorff) distance between the input and the result, relative to the diagonal of the
+    /// input's bounding box; range (0, 1]. Reached, as measured, with few vertices, or the run fails.
+    std::optional<double> maxError;
     /// An edge is a feature when its two faces deviate from flat by more than this angle, in degrees,
     /// range (0, 180]. 180: only boundaries and marked edges are features.
     double featureAngle = 40.0;
@@ -104,13 +118,20 @@ inline double MinAngle(const Params &p)
     return p.minAngle.value_or(p.optimizer == OptimizerKind::Accelerated ? 40.0 : 34.0);
 }
 
+/// What a run is asked to reach; of several, the first.
+inline TargetKind TargetOf(const Params &p)
+{
+    return p.vertexCount != 0 ? TargetKind::Vertices : p.edgeLength ? TargetKind::EdgeLength : TargetKind::MaxError;
+}
+
 /// How a run ended.
 enum class Status {
     Done,             ///< the result was checked and handed out
     Cancelled,        ///< the progress callback returned false
     InvalidParameter, ///< a parameter is out of its range
     InvalidInput,     ///< the input is not a surface that can be remeshed
-    CheckFailed       ///< the result did not pass the final check and was thrown away
+    CheckFailed,      ///< the result did not pass the final check and was thrown away
+    NotReached        ///< no number of vertices that was tried came within the error asked for
 };
 
 /// Defects of the input, as counts; those that forbid remeshing make the status InvalidInput.
@@ -143,6 +164,55 @@ struct TopologyCounts {
     }
 };
 
+/// What is narrower than the wanted spacing.
+enum class NarrowKind {
+    ThinPart,     ///< the surface: another sheet lies behind it, or it bends around on itself
+    CloseFeatures ///< the surface between two features that are not neighbours at a corner
+};
+
+/// A narrow part of the input: no mesh of the wanted spacing can have good angles there. Lengths in the mesh's
+/// units.
+struct NarrowPlace {
+    NarrowKind kind = NarrowKind::ThinPart;
+    std::array<double, 3> position = {0, 0, 0}; ///< where it is narrowest, relative to the spacing
+    double width = 0;                           ///< thickness, or distance between the features
+    double spacing = 0;                         ///< wanted edge length there
+    double vertices = 0;                        ///< vertex count whose spacing would resolve it
+};
+
+/// What stands in the way of a triangle's smallest angle.
+enum class SmallAngleReason {
+    InputCorner,   ///< two feature curves meet at a corner of the triangle at less than the target
+    CloseFeatures, ///< it touches a feature that is closer to another, or to another part of itself, than the spacing
+    ThinPart,      ///< the surface is thinner there than the spacing
+    FewVertices,   ///< the spacing is larger than the radius of curvature of the surface or of a feature
+    Unexplained    ///< none of these: the target was just not reached
+};
+constexpr int SmallAngleReasonCount = 5;
+
+/// A triangle of the result whose smallest angle is below the target.
+struct SmallAngle {
+    int face = 0;                               ///< index in the result
+    double degrees = 0;                         ///< its smallest angle
+    std::array<double, 3> position = {0, 0, 0}; ///< its centroid
+    SmallAngleReason reason = SmallAngleReason::Unexplained;
+};
+
+/// The smallest angle of a result, and a reason for each triangle below the target. In degrees.
+struct AngleCertificate {
+    double target = 0;  ///< MinAngle of the parameters
+    double reached = 0; ///< smallest angle of the result
+    std::vector<SmallAngle> below;
+
+    int Count(SmallAngleReason reason) const
+    {
+        int count = 0;
+        for (const SmallAngle &a : below)
+            count += a.reason == reason;
+        return count;
+    }
+};
+
 /// What a run achieved.
 struct Report {
     Status status = Status::InvalidInput;
@@ -152,18 +222,26 @@ struct Report {
     TopologyCounts resultTopology;
     bool topologyPreserved = false;
 
-    int requestedVertices = 0;
+    TargetKind target = TargetKind::Vertices;
+    double asked = 0;   ///< the target's value: vertices, length in the mesh's units, or relative distance
+    double reached = 0; ///< what the result has of it, measured
+    int runs = 0;       ///< remeshings that it took; `seconds` is their sum, the rest is about the last that counts
+    double meanEdgeLength = 0; ///< of the result, in the mesh's units
+
+    int requestedVertices = 0; ///< asked for, or derived from another target
     /// Vertices beyond the requested ones, forced by topology or by features; 0 in the normal case.
     int extraVertices = 0;
     int featureCurves = 0;
     int featureCorners = 0;
-    int prunedFragments = 0; ///< feature fragments shorter than the local spacing, ignored
+    int prunedFragments = 0;         ///< feature fragments shorter than the local spacing, ignored
+    std::vector<NarrowPlace> narrow; ///< one for each narrow part, the narrowest in spacings first
 
     std::vector<double> energy; ///< F of the kept state, first the start, then after each global iteration
     int accepted = 0;           ///< global iterations whose result was kept
     long long relocations = 0;  ///< vertex relocations tried, all sweeps together
     long long flips = 0;        ///< edge flips done by the optimiser
     int foldedEdges = 0;        ///< edges of the result whose faces turn by more than 150 degrees
+    AngleCertificate angles;
 
     std::vector<std::pair<std::string, double>> seconds; ///< wall time of each phase, in order
     std::vector<std::string> warnings;

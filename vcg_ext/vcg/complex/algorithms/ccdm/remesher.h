@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/certificate.h>
+#include <vcg/complex/algorithms/ccdm/edge_length.h>
 #include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
@@ -16,11 +18,13 @@
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
 #include <vcg/complex/algorithms/ccdm/surface_offset.h>
+#include <vcg/complex/algorithms/ccdm/thin_parts.h>
 
 namespace vcg {
 namespace ccdm {
 
-/// From mesh tables to mesh tables: the stages of the remesher in order.
+/// From mesh tables to mesh tables: the stages of the remesher in order. Takes a vertex count or an edge
+/// length; TargetSearch (target_search.h) takes every target.
 class Remesher
 {
 public:
@@ -41,7 +45,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    const Params _params;
+    Params _params; // an edge length is turned into a vertex count
     const Progress _progress;
     Workers _workers;
     Report _report;
@@ -67,13 +71,18 @@ private:
             return false;
         Model model;
         model.surface = ReferenceSurface(std::move(prepared.mesh.position), prepared.mesh.face);
-        if (!FindFeatures(model, prepared.mesh))
+        if (!FindFeatures(model, prepared))
             return false;
+
+        ThinParts thin(model);
+        WarnOfNarrowPlaces(thin, prepared);
 
         Remesh remesh;
         if (!AttemptAll(model, remesh))
             return false;
+        Certify(model, remesh, thin, prepared);
         WriteBack(prepared, remesh, output);
+        _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
         return true;
     }
@@ -193,9 +202,15 @@ private:
     {
         auto bad = [&](const std::string &why) { return Fail(Status::InvalidParameter, why); };
         const Params &p = _params;
-        if (p.vertexCount < 4)
+        if ((p.vertexCount != 0) + p.edgeLength.has_value() + p.maxError.has_value() != 1)
+            return bad("exactly one of the vertex count, the edge length and the largest error must be given");
+        if (p.maxError)
+            return bad("the largest error takes a search over several runs");
+        if (p.edgeLength && !(*p.edgeLength > 0 && std::isfinite(*p.edgeLength)))
+            return bad("the edge length must be above 0");
+        if (!p.edgeLength && p.vertexCount < 4)
             return bad("the vertex count must be at least 4, not " + std::to_string(p.vertexCount));
-        if (p.vertexCount > 100000000)
+        if (p.vertexCount > MostVertices)
             return bad("the vertex count must be at most 100000000, not " + std::to_string(p.vertexCount));
         if (!(p.featureAngle > 0 && p.featureAngle <= 180))
             return bad("the feature angle must lie above 0 and be at most 180 degrees");
@@ -218,6 +233,25 @@ private:
         return true;
     }
 
+    // The vertex count for the wanted edge length. What limits the gradation depends on it in turn.
+    bool CountForEdgeLength(const ReferenceSurface &surface, const std::vector<double> &phi, bool limited,
+                            double length)
+    {
+        std::vector<double> graded = phi;
+        for (int round = 0; round < (limited ? 3 : 1); ++round) {
+            const double n = VerticesForEdgeLength(surface, graded, _report.inputTopology.euler, length);
+            if (!(n <= MostVertices))
+                return Fail(Status::InvalidParameter, "the edge length takes more than 100000000 vertices");
+            _params.vertexCount = std::max(4, static_cast<int>(std::lround(n)));
+            if (limited) {
+                graded = phi;
+                LimitGradation(surface, _params.vertexCount, MostGradation, graded);
+            }
+        }
+        _report.requestedVertices = _params.vertexCount;
+        return true;
+    }
+
     void WarnOfDefects()
     {
         const InputDefects &d = _report.defects;
@@ -231,8 +265,27 @@ private:
         warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
     }
 
-    bool FindFeatures(Model &model, const MeshTables &input)
+    void WarnOfNarrowPlaces(ThinParts &thin, const InputMesh &prepared)
     {
+        _report.narrow = thin.Find();
+        for (NarrowPlace &p : _report.narrow) {
+            const Point at = prepared.Restore(Point(p.position[0], p.position[1], p.position[2]));
+            p.position = {at[0], at[1], at[2]};
+            const double factor = ThinParts::NarrowShare * p.spacing / std::max(p.width, 1e-12);
+            p.vertices = std::ceil(_params.vertexCount * factor * factor);
+            p.width *= prepared.Scale();
+            p.spacing *= prepared.Scale();
+        }
+        for (const NarrowKind kind : {NarrowKind::ThinPart, NarrowKind::CloseFeatures}) {
+            const std::string warning = NarrowWarning(_report.narrow, kind);
+            if (!warning.empty())
+                _report.warnings.push_back(warning);
+        }
+    }
+
+    bool FindFeatures(Model &model, const InputMesh &prepared)
+    {
+        const MeshTables &input = prepared.mesh;
         ReferenceSurface &surface = model.surface;
         const SideMarks marked = _params.useMarkedEdges ? input.marked : SideMarks();
         MarkFeatures(surface, _params.featureAngle, marked);
@@ -243,8 +296,6 @@ private:
             break;
         case DensityKind::Curvature:
             phi = CurvatureDensity(surface);
-            if (_params.optimizer == OptimizerKind::Accelerated)
-                LimitGradation(surface, _params.vertexCount, MostGradation, phi);
             break;
         case DensityKind::Quality:
             if (input.field.empty())
@@ -257,6 +308,12 @@ private:
                 x = std::max(x / largest, 1e-6);
             break;
         }
+        const bool limited =
+            _params.density == DensityKind::Curvature && _params.optimizer == OptimizerKind::Accelerated;
+        if (_params.edgeLength && !CountForEdgeLength(surface, phi, limited, *_params.edgeLength / prepared.Scale()))
+            return false;
+        if (limited)
+            LimitGradation(surface, _params.vertexCount, MostGradation, phi);
         model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
                                          DensityExponent(_params), _params.vertexCount);
         const int dropped = FalseCreases(surface, model.density.spacing, marked, _params.featureAngle).Drop();
@@ -388,6 +445,15 @@ private:
         return true;
     }
 
+    void Certify(const Model &model, const Remesh &remesh, ThinParts &thin, const InputMesh &prepared)
+    {
+        _report.angles = Certifier(model, remesh, thin, MinAngle(_params), _report.inputTopology.orientable).Run();
+        for (SmallAngle &a : _report.angles.below) {
+            const Point p = prepared.Restore(Point(a.position[0], a.position[1], a.position[2]));
+            a.position = {p[0], p[1], p[2]};
+        }
+    }
+
     static void WriteBack(const InputMesh &prepared, const Remesh &remesh, MeshTables &output)
     {
         MeshTables result;
@@ -449,6 +515,7 @@ private:
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the
     // curvature more closely.
     static constexpr double MostGradation = 0.1;
+    static constexpr int MostVertices = 100000000;
 };
 
 } // namespace ccdm

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_TARGET_SEARCH_H
+#define VCG_CCDM_TARGET_SEARCH_H
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/remesher.h>
+#include <vcg/complex/algorithms/mesh_quality/surface_distance.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Two-sided Hausdorff distance of meshes from one original, relative to the diagonal of its bounding box.
+class ErrorMeter
+{
+public:
+    /// `original` has passed the input check.
+    explicit ErrorMeter(const MeshTables &original)
+        : _original{original.position, original.face}, _tree(_original), _diagonal(_original.Diagonal())
+    {
+    }
+
+    /// The maximum is searched to 1 percent.
+    double Measure(const MeshTables &mesh, Workers &workers) const
+    {
+        const tri::TriangleSoup other{mesh.position, mesh.face};
+        const tri::TriangleTree tree(other);
+        std::array<double, 2> way = {0, 0};
+        workers.For(2, [&](int k, int) {
+            way[k] = (k == 0 ? tri::DeviationMeter(_original, tree) : tri::DeviationMeter(other, _tree))
+                         .Measure(Samples)
+                         .max;
+        });
+        return std::max(way[0], way[1]) / _diagonal;
+    }
+
+private:
+    static constexpr int Samples = 100000;
+
+    const tri::TriangleSoup _original;
+    const tri::TriangleTree _tree;
+    const double _diagonal;
+};
+
+/// Remeshes to any target: looks for the vertex count that reaches it in few runs of the Remesher.
+class TargetSearch
+{
+public:
+    using Progress = Remesher::Progress;
+
+    TargetSearch(const Params &params, Progress progress) : _params(params), _progress(std::move(progress)) {}
+
+    /// `output` is filled only when the report's status is Done.
+    Report Run(const MeshTables &input, MeshTables &output)
+    {
+        const bool one =
+            (_params.vertexCount != 0) + _params.edgeLength.has_value() + _params.maxError.has_value() == 1;
+        const TargetKind target = TargetOf(_params);
+        // The remesher refuses what is not one target.
+        Report report = !one || target == TargetKind::Vertices ? One(input, _params, 100, output)
+                        : target == TargetKind::EdgeLength     ? ForEdgeLength(input, output)
+                                                               : ForMaxError(input, output);
+        report.target = target;
+        report.runs = _runs;
+        report.seconds = _seconds;
+        switch (target) {
+        case TargetKind::Vertices:
+            report.asked = _params.vertexCount;
+            report.reached = report.resultTopology.vertices;
+            break;
+        case TargetKind::EdgeLength:
+            report.asked = *_params.edgeLength;
+            report.reached = report.meanEdgeLength;
+            break;
+        case TargetKind::MaxError:
+            report.asked = _params.maxError.value_or(0);
+            break;
+        }
+        if (report.status == Status::Done && _progress && _last < 100)
+            _progress(100, "done"); // nothing is left to cancel
+        return report;
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const Params _params;
+    const Progress _progress;
+    int _runs = 0, _last = 0;
+    std::vector<std::pair<std::string, double>> _seconds; // of all runs
+
+    // One remeshing, which takes the progress from where it stands to `to`.
+    Report One(const MeshTables &input, const Params &params, int to, MeshTables &output)
+    {
+        ++_runs;
+        const int from = _last;
+        Report report = Remesher(params, [&](int at, const char *phase) {
+                            return Advance(from + (to - from) * at / 100, at == 100 && to < 100 ? "measuring" : phase);
+                        }).Run(input, output);
+        for (const auto &s : report.seconds)
+            AddSeconds(s.first, s.second);
+        return report;
+    }
+
+    bool Advance(int at, const char *phase)
+    {
+        _last = std::max(_last, at);
+        return !_progress || _progress(_last, phase);
+    }
+
+    void AddSeconds(const std::string &phase, double seconds)
+    {
+        for (auto &s : _seconds)
+            if (s.first == phase) {
+                s.second += seconds;
+                return;
+            }
+        _seconds.emplace_back(phase, seconds);
+    }
+
+    static Report Fail(Report report, Status status, const std::string &why)
+    {
+        report.status = status;
+        report.message = why;
+        return report;
+    }
+
+    static std::string Text(double x)
+    {
+        std::array<char, 32> s = {};
+        std::snprintf(s.data(), s.size(), "%.3g", x);
+        return s.data();
+    }
+
+    // The closed formula is right where the remesh has about the input's area. A rough surface loses area to
+    // the chords: then the count is put right by what was measured, once.
+    Report ForEdgeLength(const MeshTables &input, MeshTables &output)
+    {
+        const double length = *_params.edgeLength;
+        MeshTables mesh;
+        Report report = One(input, _params, 90, mesh);
+        if (report.status != Status::Done)
+            return report;
+        const auto off = [&](const Report &r) { return std::abs(r.meanEdgeLength / length - 1); };
+        if (off(report) > EdgeTolerance) {
+            Params params = _params;
+            params.edgeLength.reset();
+            const double share = report.meanEdgeLength / length;
+            params.vertexCount = std::max(4, static_cast<int>(std::lround(report.requestedVertices * share * share)));
+            if (params.vertexCount != report.requestedVertices && report.extraVertices == 0) {
+                MeshTables second;
+                Report again = One(input, params, 99, second);
+                if (again.status == Status::Cancelled)
+                    return again;
+                if (again.status == Status::Done && off(again) < off(report)) {
+                    report = std::move(again);
+                    mesh = std::move(second);
+                }
+            }
+        }
+        if (off(report) > 2 * EdgeTolerance)
+            report.warnings.push_back("the mean edge length is " + Text(report.meanEdgeLength) + " instead of " +
+                                      Text(length));
+        output = std::move(mesh);
+        return report;
+    }
+
+    // A run of the search for a largest error.
+    struct Trial {
+        int vertices;
+        double error; // infinite: the run failed its check
+        bool full;    // with all iterations
+        bool extra;   // came out with more vertices than asked for: fewer cannot be had
+    };
+
+    // Runs with few iterations until the error comes near, then full ones, of which that with the fewest
+    // vertices is handed out.
+    Report ForMaxError(const MeshTables &input, MeshTables &output)
+    {
+        const double bound = *_params.maxError;
+        if (!(bound > 0 && bound <= 1))
+            return Fail(Report(), Status::InvalidParameter, "the largest error must lie above 0 and be at most 1");
+        const auto inputs = static_cast<double>(input.position.size());
+        const int most = static_cast<int>(std::clamp(5 * inputs, LeastCap, MostCap));
+        Workers workers(_params.threads);
+        std::optional<ErrorMeter> meter;
+        std::vector<Trial> trials;
+        std::optional<Report> best;
+        MeshTables bestMesh;
+        Report last;
+        int n = static_cast<int>(std::clamp(1 / bound, 30.0, std::clamp(2 * inputs, 100.0, MostFirst)));
+        bool full = _params.globalIterations <= TrialIterations;
+        while (_runs < MostRuns) {
+            Params params = _params;
+            params.maxError.reset();
+            params.vertexCount = n;
+            if (!full)
+                params.globalIterations = TrialIterations;
+            MeshTables mesh;
+            last = One(input, params, _last + (99 - _last) * 3 / 10, mesh);
+            Trial trial = {n, std::numeric_limits<double>::infinity(), full, last.extraVertices > 0};
+            if (last.status == Status::Done) {
+                const Clock::time_point start = Clock::now();
+                if (!meter)
+                    meter.emplace(input);
+                trial.error = meter->Measure(mesh, workers);
+                AddSeconds("measuring the distance", std::chrono::duration<double>(Clock::now() - start).count());
+            } else if (last.status != Status::CheckFailed) {
+                return last;
+            }
+            trials.push_back(trial);
+            if (full && Passes(trial, bound) && (!best || n < best->requestedVertices)) {
+                last.reached = trial.error;
+                best = last;
+                bestMesh = std::move(mesh);
+            }
+            const int next = NextCount(trials, bound, most);
+            if (next == 0)
+                break;
+            // The last two runs are kept for what can be handed out.
+            full = full || _runs >= MostRuns - 2 ||
+                   (trial.error < NearAbove * bound && trial.error > NearBelow * bound) || next == n;
+            n = next;
+        }
+        if (!best)
+            return NotReached(std::move(last), trials, bound, most);
+        output = std::move(bestMesh);
+        return std::move(*best);
+    }
+
+    static Report NotReached(Report report, const std::vector<Trial> &trials, double bound, int most)
+    {
+        const Trial &closest = *std::min_element(trials.begin(), trials.end(),
+                                                 [](const Trial &a, const Trial &b) { return a.error < b.error; });
+        report.reached = closest.error;
+        if (!std::isfinite(closest.error))
+            return report;
+        return Fail(std::move(report), Status::NotReached,
+                    "the error " + Text(bound) + " was not reached in " + std::to_string(trials.size()) +
+                        " runs of up to " + std::to_string(most) + " vertices: " + std::to_string(closest.vertices) +
+                        " came within " + Text(closest.error));
+    }
+
+    // The largest distance is known to 1 percent.
+    static bool Passes(const Trial &t, double bound) { return 1.01 * t.error <= bound; }
+
+    // The count to try next; 0: what there is will do, or no more can be done.
+    static int NextCount(const std::vector<Trial> &trials, double bound, int most)
+    {
+        const Trial &last = trials.back();
+        // Full runs that bracket the count; the error is not quite monotone, so from the passing one down.
+        const Trial *high = nullptr, *low = nullptr;
+        int failed = 0, largest = 0;
+        for (const Trial &t : trials)
+            if (t.full && Passes(t, bound) && (high == nullptr || t.vertices < high->vertices))
+                high = &t;
+        for (const Trial &t : trials)
+            if (t.full && !Passes(t, bound)) {
+                ++failed;
+                largest = std::max(largest, t.vertices);
+                if ((high == nullptr || t.vertices < high->vertices) && (low == nullptr || t.vertices > low->vertices))
+                    low = &t;
+            }
+        if (high != nullptr) {
+            const double n = Predicted(trials, 0.97 * bound);
+            if (high->extra || high->vertices <= 4 || n > high->vertices / CloseEnough ||
+                (low != nullptr && high->vertices <= CloseEnough * low->vertices))
+                return 0;
+            if (low == nullptr)
+                return std::max(4, static_cast<int>(std::max(n, high->vertices / MostStep)));
+            const double ratio = static_cast<double>(high->vertices) / low->vertices;
+            return static_cast<int>(
+                std::clamp(n, low->vertices * std::pow(ratio, 0.25), low->vertices * std::pow(ratio, 0.75)));
+        }
+        const bool passes = Passes(last, bound);
+        if (!passes && last.vertices >= most && (last.full || last.error > NearAbove * bound))
+            return 0;
+        if (passes && (last.vertices <= 4 || last.extra))
+            return last.vertices; // once more, in full
+        // Each full run that failed asks for more room.
+        double n =
+            std::isfinite(last.error) ? Predicted(trials, bound * std::pow(0.97, 1 + failed)) : 2.0 * last.vertices;
+        n = std::clamp(n, last.vertices / MostStep, last.vertices * MostStep);
+        if (failed > 0)
+            n = std::clamp(n, (1 + 0.05 * failed) * largest, FullStep * largest);
+        return static_cast<int>(std::clamp(n, 4.0, static_cast<double>(most)));
+    }
+
+    // The count at which a line through the logarithms of counts and errors meets `aim`. The error of one run is
+    // off by a quarter either way, so all runs count, those near the aim more.
+    static double Predicted(const std::vector<Trial> &trials, double aim)
+    {
+        double sum = 0, x = 0, y = 0, xx = 0, xy = 0;
+        const auto weigh = [&](const auto &visit) {
+            for (const Trial &t : trials)
+                if (std::isfinite(t.error)) {
+                    const double e = std::log(std::max(t.error, 1e-12) / aim);
+                    visit(1 / (0.1 + e * e), std::log(static_cast<double>(t.vertices)), e);
+                }
+        };
+        weigh([&](double w, double n, double e) {
+            sum += w;
+            x += w * n;
+            y += w * e;
+        });
+        x /= sum;
+        y /= sum;
+        weigh([&](double w, double n, double e) {
+            xx += w * (n - x) * (n - x);
+            xy += w * (n - x) * (e - y);
+        });
+        // 1 on a smooth surface, 1/2 at creases.
+        const double slope = xx > 0.05 * sum ? std::clamp(-xy / xx, 0.5, 1.2) : 0.8;
+        return std::exp(x + y / slope);
+    }
+
+    static constexpr double EdgeTolerance = 0.02;
+    static constexpr int MostRuns = 8;
+    static constexpr int TrialIterations = 4;
+    static constexpr double LeastCap = 100000, MostCap = 4000000, MostFirst = 20000;
+    static constexpr double MostStep = 8, FullStep = 1.7;
+    static constexpr double CloseEnough = 1.1;
+    // The error of a trial, in units of the bound, from which full runs set out.
+    static constexpr double NearAbove = 1.6, NearBelow = 0.6;
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
