@@ -63,7 +63,7 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--global-iterations", p.globalIterations,
-                   "perturb-optimise rounds (NG), 0 to 1000000 (default: 20; with annealing 40)")
+                   "perturb-optimise rounds (NG), 0 to 1000000 (default: 24; with annealing 40)")
         ->check(CLI::Range(0, 1000000));
     app.add_option("--local-iterations", p.localIterations, "relocations in a round (NL), 1 to 1000000")
         ->capture_default_str()

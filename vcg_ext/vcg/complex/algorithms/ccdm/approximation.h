@@ -56,7 +56,7 @@ public:
 
 private:
     /// Parts that stray by more than this many mean squared distances are worked on.
-    static constexpr double Cut = 2;
+    static constexpr double Cut = 4;
     /// A probe counts if it is further away than this many root mean square distances.
     static constexpr double FarProbe = 4;
     /// Outliers: squared distances above so many mean ones, and above this share of the largest. Measured:

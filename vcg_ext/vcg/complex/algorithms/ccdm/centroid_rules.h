@@ -80,7 +80,7 @@ struct CellCentroid {
                 continue;
             }
             // The circumcentre is a u + b w; signed areas of the two parts.
-            const double a = ww * (uu - uw) / (2 * m2), b = uu * (ww - uw) / (2 * m2);
+            const double scale = 0.5 / m2, a = ww * (uu - uw) * scale, b = uu * (ww - uw) * scale;
             const double areaU = 0.5 * b * m, areaW = 0.5 * a * m;
             const Point centre = u * a + w * b;
             if (uniform) {

@@ -57,6 +57,8 @@ public:
         Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
         polish.RaiseAngles(MinAngle(_params), 0.1, 20);
         polish.RaiseAngles(MinAngle(_params), 0.2, 20);
+        polish.Shake(_random.Bits(), 1 + _remesh.VertexCount() / 1000);
+        polish.RaiseAngles(MinAngle(_params), 0.2, 20);
         polish.RaiseAngles(30, 0.3, 20);
         polish.RaiseAngles(30, 1.0, 20);
     }
@@ -220,7 +222,7 @@ private:
     }
 
     // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time.
-    static constexpr double FineShare = 0.5, FineNoise = 0.25;
+    static constexpr double FineShare = 0.3, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 10;
     static constexpr int ApproximationRounds = 4;

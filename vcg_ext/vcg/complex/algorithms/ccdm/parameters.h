@@ -65,7 +65,7 @@ struct Params {
     /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
     /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
-    /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 20 with the
+    /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 24 with the
     /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, that many
     /// there and half as many at full resolution.
     std::optional<int> globalIterations;
@@ -109,7 +109,7 @@ inline RelocationKind Relocation(const Params &p)
 /// The number of global iterations of a run.
 inline int GlobalIterations(const Params &p)
 {
-    return p.globalIterations.value_or(p.optimizer == OptimizerKind::Accelerated ? 20 : 40);
+    return p.globalIterations.value_or(p.optimizer == OptimizerKind::Accelerated ? 24 : 40);
 }
 
 /// The smallest angle that a run aims at, in degrees.

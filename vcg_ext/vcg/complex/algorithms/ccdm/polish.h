@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_map>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
-#include <vcg/complex/algorithms/ccdm/relocation.h>
 
 namespace vcg {
 namespace ccdm {
@@ -21,32 +23,56 @@ public:
 
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
     /// change may take the mesh no further from the surface than it was, or than `stray` times an edge
-    /// length. Returns the number of triangles that stay under the angle.
+    /// length. Returns the number of triangles that stay under the angle. Later calls for no larger angle look
+    /// only at what the first one left and at what has changed since.
     int RaiseAngles(double degrees, double stray, int rounds)
     {
         _stray = stray * stray;
         const double cosine = std::cos(degrees * Pi / 180);
-        std::vector<int> bad;
+        if (_searched < degrees) {
+            _bad.resize(_remesh.mesh.TriangleCount());
+            std::iota(_bad.begin(), _bad.end(), 0);
+        }
+        _searched = degrees;
         // A triangle that could not be helped twice is left alone.
-        std::vector<char> failures(_remesh.mesh.TriangleCount(), 0);
+        std::unordered_map<int, int> failures;
         for (int round = 0;; ++round) {
-            bad.clear();
-            for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t)
-                if (LargestCosine(t) > cosine)
-                    bad.push_back(t);
-            if (bad.empty() || round == rounds)
+            _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !(LargestCosine(t) > cosine); }),
+                       _bad.end());
+            if (_bad.empty() || round == rounds)
                 break;
             bool improved = false;
-            for (const int t : bad)
+            for (const int t : _bad)
                 if (LargestCosine(t) > cosine && failures[t] < 2) {
                     const bool helped = Improve(t);
-                    failures[t] = static_cast<char>(helped ? 0 : failures[t] + 1);
+                    failures[t] = helped ? 0 : failures[t] + 1;
                     improved = improved || helped;
                 }
+            LookAroundChanged();
             if (!improved)
                 break;
         }
-        return static_cast<int>(bad.size());
+        return static_cast<int>(_bad.size());
+    }
+
+    /// Shakes what RaiseAngles has left and no feature touches: the vertices around such a triangle are perturbed and
+    /// optimised anew, a few times over, until the smallest angle there is larger than it was. Where two irregular
+    /// vertices hold each other, no small move helps. At most `places` of them.
+    void Shake(std::uint64_t seed, int places)
+    {
+        const std::vector<int> left = _bad;
+        Random random(seed);
+        for (const int t : left) {
+            const Triangle &T = _remesh.mesh.triangle[t];
+            const bool free = std::all_of(std::begin(T.v), std::end(T.v),
+                                          [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
+            if (!free || !(LargestCosine(t) > std::cos(_searched * Pi / 180)))
+                continue;
+            if (places-- == 0)
+                break;
+            ShakeAround(t, random);
+        }
+        LookAroundChanged();
     }
 
     /// Opens the edges, features apart, whose faces turn by more than 150 degrees, by moving the vertices
@@ -90,12 +116,16 @@ public:
     }
 
 private:
+    static constexpr int Shakes = 12;
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
     const Model &_model;
     Remesh &_remesh;
     Relocator _relocator;
     double _stray = 0;
+    double _searched = -1;     // the angle that all triangles have been searched for
+    std::vector<int> _bad;     // triangles to look at
+    std::vector<int> _changed; // vertices that have moved, or whose edges have changed
     Star _star;
 
     static double LargestCosine(const Point &a, const Point &b, const Point &c)
@@ -111,6 +141,19 @@ private:
     {
         const Triangle &T = _remesh.mesh.triangle[t];
         return LargestCosine(_remesh.position[T.v[0]], _remesh.position[T.v[1]], _remesh.position[T.v[2]]);
+    }
+
+    // A flip that is taken back may have swapped the records of its triangles: that is a change too.
+    void LookAroundChanged()
+    {
+        for (const int v : _changed)
+            _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+                _bad.push_back(SideTriangle(s));
+                return true;
+            });
+        std::sort(_bad.begin(), _bad.end());
+        _bad.erase(std::unique(_bad.begin(), _bad.end()), _bad.end());
+        _changed.clear();
     }
 
     bool Improve(int t)
@@ -133,6 +176,145 @@ private:
                 improved = FlipAndShift(MakeSide(SideTriangle(around[k]), Next(SideEdge(around[k]))));
         }
         return improved;
+    }
+
+    // A part of the mesh as it was: what flips of edges and moves of vertices inside it change.
+    struct Snapshot {
+        std::vector<std::pair<int, Triangle>> triangle;
+        struct Vertex {
+            int v, incident;
+            Point position;
+            Place place;
+            double rho;
+        };
+        std::vector<Vertex> vertex;
+    };
+
+    // The free vertices within some rings of a triangle, in a fixed order.
+    std::vector<int> Around(int t, int rings) const
+    {
+        std::vector<int> found(std::begin(_remesh.mesh.triangle[t].v), std::end(_remesh.mesh.triangle[t].v));
+        for (std::size_t begin = 0; rings > 0; --rings) {
+            const std::size_t end = found.size();
+            for (; begin < end; ++begin)
+                _remesh.mesh.VisitSpokes(found[begin], [&](int o, Side) {
+                    if (_remesh.place[o].kind == VertexKind::Free &&
+                        std::find(found.begin(), found.end(), o) == found.end())
+                        found.push_back(o);
+                    return true;
+                });
+        }
+        return found;
+    }
+
+    Snapshot Save(const std::vector<int> &region) const
+    {
+        Snapshot saved;
+        std::vector<int> triangles;
+        for (const int v : region) {
+            saved.vertex.push_back(
+                {v, _remesh.mesh.incident[v], _remesh.position[v], _remesh.place[v], _remesh.rho[v]});
+            _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+                triangles.push_back(SideTriangle(s));
+                return true;
+            });
+        }
+        std::sort(triangles.begin(), triangles.end());
+        triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+        for (const int t : triangles)
+            saved.triangle.emplace_back(t, _remesh.mesh.triangle[t]);
+        return saved;
+    }
+
+    void Restore(const Snapshot &saved)
+    {
+        for (const auto &[t, record] : saved.triangle)
+            _remesh.mesh.triangle[t] = record;
+        for (const Snapshot::Vertex &x : saved.vertex) {
+            _remesh.mesh.incident[x.v] = x.incident;
+            _remesh.mesh.ForgetRing(x.v);
+            SetVertex(x.v, x.position, x.place, x.rho);
+        }
+    }
+
+    struct Fitness {
+        double cosine = -1; // of the smallest angle
+        double stray = 0;   // largest squared distance of a centroid, in squared edges
+        double turn = 1;    // cosine of the sharpest turn
+    };
+
+    Fitness FitnessOf(const Snapshot &part) const
+    {
+        Fitness f;
+        for (const auto &record : part.triangle) {
+            const int t = record.first;
+            const Triangle &T = _remesh.mesh.triangle[t];
+            const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
+            f.cosine = std::max(f.cosine, LargestCosine(t));
+            f.turn = std::min(f.turn, SharpestTurnCosine(t, t));
+            const int *home = std::find_if(std::begin(T.v), std::end(T.v), [&](int v) {
+                return _remesh.place[v].kind == VertexKind::Free;
+            });
+            if (home != std::end(T.v))
+                f.stray = std::max(f.stray, SquaredDistanceNear(_model, _remesh, *home, (a + b + c) / 3) /
+                                                SquaredNorm(b - a));
+        }
+        return f;
+    }
+
+    // Flips inside the region until it is Delaunay.
+    void FlipWithin(const std::vector<int> &region, const Snapshot &part)
+    {
+        const auto inside = [&](int v) { return std::find(region.begin(), region.end(), v) != region.end(); };
+        for (int round = 0; round < 4; ++round) {
+            bool flipped = false;
+            for (const auto &record : part.triangle)
+                for (int e = 0; e < 3; ++e) {
+                    const Side s = MakeSide(record.first, e);
+                    if (_remesh.mesh.Mate(s) <= s)
+                        continue;
+                    const Hinge h(_remesh, s);
+                    if (h.Excess() > 0 && inside(h.apexA) && inside(h.apexB) && inside(_remesh.mesh.Tail(s)) &&
+                        inside(_remesh.mesh.Head(s)) && MayFlip(_remesh, s, h)) {
+                        _remesh.mesh.Flip(s);
+                        flipped = true;
+                    }
+                }
+            if (!flipped)
+                return;
+        }
+    }
+
+    void ShakeAround(int t, Random &random)
+    {
+        const std::vector<int> region = Around(t, 3);
+        _changed.insert(_changed.end(), region.begin(), region.end());
+        const Snapshot saved = Save(region);
+        const Fitness before = FitnessOf(saved);
+        const bool uniform = _model.density.uniform;
+        const double wanted = std::cos(_searched * Pi / 180);
+        for (int attempt = 0; attempt < Shakes; ++attempt) {
+            const Perturbation perturb{0.2 + 0.05 * attempt, random.Bits()};
+            for (const int v : region)
+                _relocator.Relocate(v, perturb);
+            for (int i = 0; i < 8; ++i) {
+                FlipWithin(region, saved);
+                for (const int v : region)
+                    _relocator.Relocate(v, CellCentroid{_remesh, uniform});
+            }
+            FlipWithin(region, saved);
+            for (int round = 0; round < 4; ++round)
+                for (const auto &record : saved.triangle)
+                    if (LargestCosine(record.first) > wanted)
+                        for (const int v : _remesh.mesh.triangle[record.first].v)
+                            if (std::find(region.begin(), region.end(), v) != region.end())
+                                Shift(v);
+            const Fitness after = FitnessOf(saved);
+            if (after.cosine < before.cosine - 1e-3 && after.stray <= std::max(before.stray, _stray) &&
+                after.turn >= std::min(before.turn, 0.0))
+                return;
+            Restore(saved);
+        }
     }
 
     double LargestCosineAround(const int (&vertex)[4])
@@ -170,6 +352,7 @@ private:
         if (SquaredDistanceNear(_model, _remesh, h.apexA, (h.a + h.b) / 2) > far)
             return false;
         const Side flipped = _remesh.mesh.Flip(s);
+        _changed.insert(_changed.end(), std::begin(vertex), std::end(vertex));
         for (const int v : vertex)
             Shift(v);
         if (LargestCosineAround(vertex) < before - 1e-6)
@@ -194,6 +377,7 @@ private:
                                     _stray * SquaredNorm(h.a - h.b));
         if (SquaredDistanceNear(_model, _remesh, h.apexA, (h.a + h.b) / 2) > far)
             return false;
+        _changed.insert(_changed.end(), {h.apexA, h.apexB, _remesh.mesh.Tail(s), _remesh.mesh.Head(s)});
         _remesh.mesh.Flip(s);
         return true;
     }
@@ -286,6 +470,7 @@ private:
                     improved = true;
         if (!improved)
             return false;
+        _changed.push_back(v);
         _remesh.mesh.GatherStar(v, _star);
         const double edge = SquaredNorm(_remesh.position[v] - _remesh.position[_star.outer[0]]);
         const double distance = StarSquaredDistance(_model, _remesh, v, _star);

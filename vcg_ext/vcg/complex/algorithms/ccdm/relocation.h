@@ -368,14 +368,20 @@ private:
     bool KeepsStar(const Point &move, bool sectors) const
     {
         constexpr double least = 0.04; // the square of the cosine of 78 degrees
-        double after = 1;
+        bool all = true;
+        for (int k = 0; k < _star.triangles && all; ++k) {
+            const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
+            const Point &sector = sectors ? _sector[k] : _star.normal;
+            const double along = Dot(c, sector), scale = SquaredNorm(sector);
+            all = along > 1e-4 * scale && along * along >= least * (SquaredNorm(c) * scale);
+        }
+        if (all)
+            return true;
+        double after = 1, before = 1;
         for (int k = 0; k < _star.triangles; ++k) {
             const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
             after = std::min(after, Facing(c, sectors ? _sector[k] : _star.normal));
         }
-        if (after >= least)
-            return true;
-        double before = 1;
         for (int k = 0; k < _star.triangles; ++k)
             before = std::min(before, Facing(_star.cross[k], sectors ? _sector[k] : _star.normal));
         return after > before;

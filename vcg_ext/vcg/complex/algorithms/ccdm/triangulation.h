@@ -231,6 +231,12 @@ public:
         if (count < MostInRing)
             _ring[v][count] = -1;
     }
+    /// For callers that write triangles themselves.
+    void ForgetRing(int v)
+    {
+        if (!_ring.empty())
+            _ring[v][0] = -1;
+    }
     const Ring *KnownRing(int v) const { return !_ring.empty() && _ring[v][0] >= 0 ? &_ring[v] : nullptr; }
 
     int Valence(int v) const
