@@ -55,9 +55,9 @@ class Runner:
         return self.analytic
 
 
-def combinations(*extra):
-    """Every rule with every optimiser, and with each of `extra`."""
-    return [(optimiser, rule, x) for x in extra for optimiser in OPTIMISERS for rule in RULES]
+def combinations(*values):
+    """Every rule with every optimiser and with each of the values."""
+    return [(optimiser, rule, value) for value in values for optimiser in OPTIMISERS for rule in RULES]
 
 
 def energy(source, result, density, optimiser):
@@ -68,44 +68,50 @@ def energy(source, result, density, optimiser):
     return density_slope.energy_excess(points, faces, phi, GAMMAS[optimiser])
 
 
-def bench_rules(runner, models):
+def rows_of(models, varied, values, figures):
+    """A row for each model, optimiser, rule and value of what is varied, with what figures(row) adds to it.
+
+    Those that fail are left out, and said to be.
+    """
     rows = []
     for name, n in models:
-        source = model(name)
-        for optimiser, rule, density in combinations(*DENSITIES):
-            cpu = runner.run(source, n, optimiser, rule, "--density", density)
-            row = {"model": name, "n": n, "optimiser": optimiser, "rule": rule, "density": density, "cpu": cpu,
-                   "energy": energy(source, runner.result, density, optimiser), **measure(source, runner.result)}
-            rows.append(row)
-            print(f"{name:<13}{optimiser:<12}{density:<10}{rule:<5}{cpu:>7.2f} s{row['angle_min_avg']:>7.2f}"
-                  f"{row['angle_min']:>6.1f}{row['pct_valence6']:>6.1f}{1e3 * row['rms']:>8.3f}"
-                  f"{100 * row['energy']:>7.2f}", flush=True)
+        for optimiser, rule, value in combinations(*values):
+            row = {"model": name, "n": n, "optimiser": optimiser, "rule": rule, varied: value}
+            text = f"{name:<13}{optimiser:<12}{rule:<5}{varied} {value:<10}"
+            try:
+                row.update(figures(row))
+                rows.append(row)
+            except RuntimeError as fault:
+                text += str(fault)
+            print(text + rules_page.line_of(row), flush=True)
     return rows
+
+
+def bench_rules(runner, models):
+    def figures(row):
+        source = model(row["model"])
+        cpu = runner.run(source, row["n"], row["optimiser"], row["rule"], "--density", row["density"])
+        return {"cpu": cpu, "energy": energy(source, runner.result, row["density"], row["optimiser"]),
+                **measure(source, runner.result)}
+    return rows_of(models, "density", DENSITIES, figures)
 
 
 def bench_time(runner, models):
-    rows = []
-    for name, n in models:
-        for optimiser, rule, iterations in combinations(*ITERATIONS):
-            cpu = runner.run(model(name), n, optimiser, rule, "--global-iterations", str(iterations))
-            rows.append({"model": name, "n": n, "optimiser": optimiser, "rule": rule, "iterations": iterations,
-                         "cpu": cpu, "angle": measure(runner.result)["angle_min_avg"]})
-        print(f"{name}: quality against time done", flush=True)
-    return rows
+    def figures(row):
+        cpu = runner.run(model(row["model"]), row["n"], row["optimiser"], row["rule"], "--global-iterations",
+                         str(row["iterations"]))
+        return {"cpu": cpu, "angle": measure(runner.result)["angle_min_avg"]}
+    return rows_of(models, "iterations", ITERATIONS, figures)
 
 
 def bench_slope(runner, models):
-    rows = []
-    for name, n in models:
-        source, kind = runner.source(name), "quality" if name == ANALYTIC[0] else "curvature"
-        for optimiser, rule, gamma in combinations(*SLOPE_GAMMAS):
-            runner.run(source, n, optimiser, rule, "--density", kind, "--density-exponent", str(gamma))
-            limited = kind == "curvature" and optimiser == "accelerated"
-            row = {"model": name, "n": n, "optimiser": optimiser, "rule": rule, "gamma": gamma, "limited": limited,
-                   **density_slope.slopes(source, runner.result, kind, FEATURE_ANGLE, limited)}
-            rows.append(row)
-            print(f"{name:<13}{optimiser:<12}gamma {gamma}  {rule}  slope {rules_page.slope_cell(row)}", flush=True)
-    return rows
+    def figures(row):
+        source, kind = runner.source(row["model"]), "quality" if row["model"] == ANALYTIC[0] else "curvature"
+        runner.run(source, row["n"], row["optimiser"], row["rule"], "--density", kind, "--density-exponent",
+                   str(row["gamma"]))
+        limited = kind == "curvature" and row["optimiser"] == "accelerated"
+        return {"limited": limited, **density_slope.slopes(source, runner.result, kind, FEATURE_ANGLE, limited)}
+    return rows_of(models, "gamma", SLOPE_GAMMAS, figures)
 
 
 def arguments():

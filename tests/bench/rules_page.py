@@ -26,12 +26,13 @@ density between optimisers too."""
 SUMMARY = """Sum of the CPU seconds, medians of the other figures, over {count} models."""
 TIME = """Whole runs with {iterations} global iterations, uniform density."""
 SLOPE = """The slope of log(vertex density) over log(phi), by least squares over the vertices of the result that
-are not on a boundary; vertex density is 1 over a third of the area of the star, phi is interpolated in the nearest
-triangle of the input by the remesher's own functions (`measure_density`). With the weight phi^gamma the minimum of
-the energy has slope gamma / 2; the centroid of the star is no such minimum where the density changes, and its
-fixed point is steeper (on a line 2 gamma / 3 instead of gamma / 3). With curvature the accelerated optimiser limits how fast the spacing may grow: the
-slope is against that limited phi, and in parentheses over the vertices where the limit changes nothing, with their
-share. *analytic*: the sample sphere with exp(1.5 z) as vertex quality, which nothing limits."""
+are not on a boundary; vertex density is 1 over a third of the area of the star, phi is interpolated in the
+nearest triangle of the input by the remesher's own functions (`measure_density`). With the weight phi^gamma the
+minimum of the energy has slope gamma / 2; the centroid of the star is no such minimum where the density
+changes, and its fixed point is steeper (on a line 2 gamma / 3 instead of gamma / 3). With curvature the
+accelerated optimiser limits how fast the spacing may grow: the slope is against that limited phi, and in
+parentheses over the vertices where the limit changes nothing, with their share. *analytic*: the sample sphere
+with exp(1.5 z) as vertex quality, which nothing limits."""
 
 
 def value(x, digits):
@@ -41,6 +42,15 @@ def value(x, digits):
 def figures(row):
     return [f"{row['cpu']:.2f}", f"{row['angle_min_avg']:.2f}", f"{row['angle_min']:.1f}", f"{row['pct_valence6']:.1f}",
             f"{1e3 * row['rms']:.3f}", f"{100 * row['energy']:.2f}"]
+
+
+def line_of(row):
+    """The figures of a row of any part, for the terminal."""
+    if "energy" in row:
+        return "  ".join(figures(row))
+    if "angle" in row:
+        return f"{row['cpu']:.2f}  {row['angle']:.2f}"
+    return "slope " + slope_cell(row) if "slope" in row else ""
 
 
 def groups(rows, *keys):
@@ -117,7 +127,8 @@ def slope_section(data):
         return []
     draw_slope(rows)
     gammas = [gamma for (gamma,) in groups(rows, "gamma")]
-    cells = [[name, optimiser, rule] + [slope_cell(r) for r in sorted(part, key=lambda r: r["gamma"])]
+    cells = [[name, optimiser, rule] + [
+                 next((slope_cell(r) for r in part if r["gamma"] == gamma), "failed") for gamma in gammas]
              for (name, optimiser, rule), part in groups(rows, "model", "optimiser", "rule").items()]
     head = ["field", "optimiser", "rule"] + [f"gamma {g}: {g / 2:g} wanted" for g in gammas]
     return ["", "## Density slope", "", *paragraph(SLOPE), "", *pages.table(head, cells, TEXTS), "",
