@@ -3,7 +3,7 @@
 """launch.py COST COMMAND...: runs a command and writes what it cost to the file COST, as JSON.
 
 Linux counts the memory of the process that starts another towards the peak of the one started. So this one,
-which imports next to nothing, stands between a benchmark with its libraries and what it measures; about 9 MB
+which imports next to nothing, stands between a benchmark with its libraries and what it measures; about 7 MB
 are the least that it can tell.
 """
 import json

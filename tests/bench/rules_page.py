@@ -29,10 +29,10 @@ SLOPE = """The slope of log(vertex density) over log(phi), by least squares over
 are not on a boundary; vertex density is 1 over a third of the area of the star, phi is interpolated in the
 nearest triangle of the input by the remesher's own functions (`measure_density`). With the weight phi^gamma the
 minimum of the energy has slope gamma / 2; the centroid of the star is no such minimum where the density
-changes, and its fixed point is steeper (on a line 2 gamma / 3 instead of gamma / 3). With curvature the
-accelerated optimiser limits how fast the spacing may grow: the slope is against that limited phi, and in
-parentheses over the vertices where the limit changes nothing, with their share. *analytic*: the sample sphere
-with exp(1.5 z) as vertex quality, which nothing limits."""
+changes, and its fixed point is about twice as steep (on a line 2 gamma / 3 instead of gamma / 3); more
+iterations come nearer to it. With curvature the accelerated optimiser limits how fast the spacing may grow: the
+slope is against that limited phi, and in parentheses over the vertices where the limit changes nothing, with
+their share. *analytic*: the sample sphere with exp(1.5 z) as vertex quality, which nothing limits."""
 
 
 def value(x, digits):
