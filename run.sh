@@ -12,7 +12,9 @@ usage: ./run.sh VERB
           prints the quality before and after, and draws a picture (build/demo)
   test    the same set-up, then every check and test
   build   the command line, the plugin and the tests, in build/
-  bench   the benchmarks (tests/bench), or one of them: bench hosts, bench scaling,
+  bench   the benchmarks (tests/bench), or one of them: bench hosts,
+          bench scaling [--sizes N ...] [--repeats N],
+          bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
   clean   removes what was built; --all: the fetched MeshLab sources too
 TEXT
@@ -125,11 +127,12 @@ run_tests() {
 
 bench() {
     local which=${1:-all}
-    case "$which" in all | hosts | scaling | peers) ;; *) usage; exit 2 ;; esac
+    case "$which" in all | hosts | scaling | rules | peers) ;; *) usage; exit 2 ;; esac
     install_packages "${build_packages[@]}" "${demo_packages[@]}"
     build
     case "$which" in all | hosts) /usr/bin/python3 tests/bench/bench_hosts.py ;; esac
-    case "$which" in all | scaling) /usr/bin/python3 tests/bench/bench_scaling.py ;; esac
+    case "$which" in all | scaling) /usr/bin/python3 tests/bench/bench_scaling.py "${@:2}" ;; esac
+    case "$which" in all | rules) /usr/bin/python3 tests/bench/bench_rules.py "${@:2}" ;; esac
     case "$which" in all | peers)
         # A remesher that cannot be installed is a row that says so.
         (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed"

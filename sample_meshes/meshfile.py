@@ -28,14 +28,16 @@ def read_ply(path):
     return points, np.frombuffer(data, face, faces, end + vertices * table.dtype.itemsize)["v"]
 
 
-def write_ply(path, points, faces):
-    """Binary, positions in double precision."""
-    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty double x\n"
-            f"property double y\nproperty double z\nelement face {len(faces)}\n"
+def write_ply(path, points, faces, quality=None):
+    """Binary, positions in double precision; `quality`: a value for each vertex."""
+    names = ("x", "y", "z") if quality is None else ("x", "y", "z", "quality")
+    table = np.column_stack([points] if quality is None else [points, quality])
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+            + "".join(f"property double {name}\n" for name in names) + f"element face {len(faces)}\n"
             "property list uchar int vertex_indices\nend_header\n")
     rows = np.empty(len(faces), [("n", "u1"), ("v", "<i4", 3)])
     rows["n"], rows["v"] = 3, faces
     with open(path, "wb") as out:
         out.write(head.encode("ascii"))
-        out.write(np.ascontiguousarray(points, "<f8").tobytes())
+        out.write(np.ascontiguousarray(table, "<f8").tobytes())
         out.write(rows.tobytes())

@@ -4,7 +4,8 @@
 
 Whole processes, user + system seconds, reading and writing included; MeshLab's "Isotropic Explicit
 Remeshing" with 20 iterations, its edge length calibrated until the vertex count is within 3 %. Both
-in turn, three times, the median counts. Prints a table and writes build/bench/hosts.json.
+in turn, three times, the median counts. Writes build/bench/hosts.json and the section on hosts of
+tests/bench/README.md.
 """
 import json
 import os
@@ -14,10 +15,12 @@ import sys
 import tempfile
 import time
 
-from common import OUT, PROGRAM, SERVER, count_vertices, cpu_seconds, model
+import pages
+from common import OUT, PROGRAM, SERVER, count_vertices, cpu_seconds, model, provenance
 
 CASES = (("joint", 6000, 40), ("foot", 6000, 180), ("bunny_scan", 10000, 180), ("igea", 20000, 180))
 RUNS = 3
+TRIES = 8
 EXPLICIT = """<!DOCTYPE FilterScript>
 <FilterScript>
  <filter name="Remeshing: Isotropic Explicit Remeshing">
@@ -57,7 +60,7 @@ def explicit(source, length, diagonal, angle, folder, display):
     return cpu, count_vertices(out)
 
 
-def geometry(source, folder):
+def geometry(source):
     """(area, bounding-box diagonal) of a mesh, from its points."""
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "sample_meshes"))
     import numpy as np
@@ -69,6 +72,51 @@ def geometry(source, folder):
     return float(area), float(np.linalg.norm(used.max(0) - used.min(0)))
 
 
+def ccdm(source, n, angle, folder):
+    """Processor seconds and MB of the paper's method."""
+    return cpu_seconds([PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
+                        str(angle), "--optimizer", "annealing", "--sampler", "random", "--threads", "1", "--quiet"])
+
+
+def calibrated(source, n, angle, folder, display):
+    """Edge length whose vertex count is within 3 % of n, with that count and the diagonal."""
+    area, diagonal = geometry(source)
+    length = (2 * area / (3 ** 0.5 * n)) ** 0.5
+    for _ in range(TRIES):
+        _, got = explicit(source, length, diagonal, angle, folder, display)
+        if abs(got / n - 1) < 0.03:
+            break
+        length *= (got / n) ** 0.5
+    return length, got, diagonal
+
+
+def bench_case(case, n, angle, folder, display):
+    source = model(case)
+    length, got, diagonal = calibrated(source, n, angle, folder, display)
+    ours, theirs = [], []
+    for _ in range(RUNS):
+        ours.append(ccdm(source, n, angle, folder))
+        theirs.append(explicit(source, length, diagonal, angle, folder, display)[0])
+    row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "explicit_n": got,
+           "ccdm": statistics.median(cpu for cpu, _ in ours), "megabytes": max(megabytes for _, megabytes in ours),
+           "explicit": statistics.median(theirs)}
+    row["ratio"] = row["ccdm"] / row["explicit"]
+    return row
+
+
+TEXT = """Processor seconds of the whole process on one thread, the paper's method (annealing, random samples) with
+its default budget against MeshLab's "Isotropic Explicit Remeshing", 20 iterations, edge length calibrated to the
+same count, median of {runs} runs in turn."""
+
+
+def write_section(rows):
+    cells = [[r["model"], f"{r['n']:,}", f"{r['ccdm']:.2f}", f"{r['megabytes']:.0f}", f"{r['explicit']:.2f}",
+              f"{r['explicit_n']:,}", f"{r['ratio']:.2f}"] for r in rows]
+    head = ("model", "vertices", "CCDM s", "CCDM MB", "explicit s", "its vertices", "ratio")
+    pages.write_section("hosts", [*pages.stamp(provenance("./run.sh bench hosts"), "this section"), "",
+                                  *pages.paragraph(TEXT.format(runs=RUNS)), "", *pages.table(head, cells, ("model",))])
+
+
 def main():
     os.makedirs(OUT, exist_ok=True)
     display, name = start_display()
@@ -77,31 +125,15 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             print(f"{'model':<12}{'n':>7}{'CCDM s':>9}{'MB':>7}{'explicit s':>12}{'n':>8}{'ratio':>8}")
             for case, n, angle in CASES:
-                source = model(case)
-                area, diagonal = geometry(source, folder)
-                length = (2 * area / (3 ** 0.5 * n)) ** 0.5
-                for _ in range(8):
-                    _, got = explicit(source, length, diagonal, angle, folder, name)
-                    if abs(got / n - 1) < 0.03:
-                        break
-                    length *= (got / n) ** 0.5
-                ours, theirs, memory = [], [], 0
-                for _ in range(RUNS):
-                    cpu, megabytes = cpu_seconds([PROGRAM, source, os.path.join(folder, "o.ply"), "-n", str(n), "--feature-angle",
-                                                  str(angle), "--optimizer", "annealing", "--sampler", "random", "--threads", "1", "--quiet"])
-                    ours.append(cpu)
-                    memory = max(memory, megabytes)
-                    theirs.append(explicit(source, length, diagonal, angle, folder, name)[0])
-                row = {"model": os.path.basename(source), "n": n, "ccdm": statistics.median(ours), "megabytes": memory,
-                       "explicit": statistics.median(theirs), "explicit_n": got}
-                row["ratio"] = row["ccdm"] / row["explicit"]
+                row = bench_case(case, n, angle, folder, name)
                 rows.append(row)
-                print(f"{case:<12}{n:>7}{row['ccdm']:>9.2f}{memory:>7.0f}{row['explicit']:>12.2f}{got:>8}{row['ratio']:>8.3f}",
-                      flush=True)
+                print(f"{case:<12}{n:>7}{row['ccdm']:>9.2f}{row['megabytes']:>7.0f}{row['explicit']:>12.2f}"
+                      f"{row['explicit_n']:>8}{row['ratio']:>8.3f}", flush=True)
     finally:
         display.terminate()
     with open(os.path.join(OUT, "hosts.json"), "w", encoding="ascii") as out:
         json.dump(rows, out, indent=1)
+    write_section(rows)
     return 0
 
 

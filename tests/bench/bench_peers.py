@@ -9,40 +9,21 @@ cannot be installed, fails or takes too long is a row with the reason. All resul
 project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md and its pictures.
 """
 import argparse
-import datetime
 import json
 import math
 import os
-import platform
-import re
-import subprocess
 import sys
 import tempfile
 
 import peers_page
-from common import MESHES, OUT, PROGRAM, ROOT, model, usage_of
+from common import OUT, cases, measure, model, provenance, usage_of
 from peers import all_peers
 
 FEATURE_ANGLE = 40  # degrees, the command line's default
 TIME_LIMIT = 300  # wall seconds of one run
-LONG_RUN = 60  # processor seconds from which on a run is not repeated
+LONG_RUN = 20  # processor seconds from which on a run is not repeated
 TOLERANCE = 0.03  # of the vertex count
 TRIES = 6
-MODELS = (("joint", 6000), ("twist", 5000), ("wingnut", 6000), ("pig", 10000), ("klein_bottle", 5000),
-          ("max_planck", 10000), ("moai", 10000), ("foot", 6000), ("gargoyle", 18000), ("bunny_scan", 10000),
-          ("julius_noisy", 20000), ("koala", 10000), ("lion_vase", 30000), ("igea", 20000))
-SAMPLES = (("cad_part", 5000), ("twisted_bar", 5000), ("plate", 5000), ("klein_bottle", 5000), ("high_genus", 8000),
-           ("bumpy", 6000), ("bust", 10000))
-SCALING_SIZES = (20000, 100000, 300000)
-MEASURE = os.path.join(ROOT, "build", "bin", "measure_mesh")
-
-
-def measure(*files):
-    """What measure_mesh prints of one mesh, or of a result against its original."""
-    done = subprocess.run([MEASURE, *files], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError("the result cannot be measured: " + done.stderr.strip().replace(ROOT + os.sep, ""))
-    return json.loads(done.stdout)
 
 
 def pinned(command):
@@ -111,7 +92,8 @@ def bench_model(name, n, peers, options):
     source, rows, sizes = model(name), [], {}
     area = measure(source)["area"]
     for peer in peers:
-        row = {"model": name, "n": n, "peer": peer.name, "ours": peer.ours, "reason": peer.reason}
+        row = {"model": name, "n": n, "peer": peer.name, "family": peer.family, "ours": peer.ours,
+               "reason": peer.reason}
         with tempfile.TemporaryDirectory() as folder:
             try:
                 if not peer.reason:
@@ -135,29 +117,6 @@ def line_of(row):
                    f"  {'kept' if row['topology_kept'] else 'changed'}")
 
 
-def bench_threads(options):
-    """Seconds of the project's own program for growing sizes, with one thread and with two."""
-    source, rows = model("igea"), []
-    load = os.getloadavg()[0]
-    with tempfile.TemporaryDirectory() as folder:
-        for n in SCALING_SIZES:
-            row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "load": load}
-            for threads in (1, 2):
-                command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--feature-angle",
-                           str(options.feature_angle), "--threads", str(threads), "--quiet"]
-                best = min((usage_of(command) for _ in range(options.repeats)), key=lambda u: u.wall)
-                row[f"wall_{threads}"], row[f"cpu_{threads}"] = best.wall, best.cpu
-            rows.append(row)
-            print(f"{n:>9} vertices: {row['wall_1']:.2f} s with one thread, {row['wall_2']:.2f} s with two", flush=True)
-    return rows
-
-
-def machine():
-    cpu = re.search(r"model name\s*: (.*)", open("/proc/cpuinfo", encoding="utf-8").read())
-    return {"cpu": cpu[1] if cpu else platform.machine(), "cores": os.cpu_count(),
-            "system": platform.freedesktop_os_release()["PRETTY_NAME"]}
-
-
 def install(peers):
     for peer in peers:
         try:
@@ -169,19 +128,16 @@ def install(peers):
 
 def arguments():
     names = [p.name for p in all_peers()]
-    models = MODELS if os.path.isdir(MESHES) else SAMPLES
+    models = [name for name, _ in cases()]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--models", nargs="+", choices=[name for name, _ in models], metavar="MODEL",
-                        help="only these of: " + ", ".join(name for name, _ in models))
+    parser.add_argument("--models", nargs="+", choices=models, metavar="MODEL",
+                        help="only these of: " + ", ".join(models))
     parser.add_argument("--peers", nargs="+", metavar="WORD",
                         help="the project's default, and those whose name has one of the words: " + "; ".join(names))
     parser.add_argument("--repeats", type=int, default=3, help="runs of each, the least time counts (default 3)")
     parser.add_argument("--feature-angle", type=float, default=FEATURE_ANGLE,
                         help=f"of all remeshers, degrees (default {FEATURE_ANGLE}); 180: boundaries only")
-    parser.add_argument("--no-threads", action="store_true", help="leave out the scaling with threads")
-    options = parser.parse_args()
-    options.cases = [case for case in models if not options.models or case[0] in options.models]
-    return options
+    return parser.parse_args()
 
 
 def main():
@@ -191,15 +147,14 @@ def main():
         word.lower() in p.name.lower() for word in options.peers)]
     install(peers)
     rows = []
-    for name, n in options.cases:
+    for name, n in cases(options.models):
         rows += bench_model(name, n, peers, options)
-    data = {"date": datetime.date.today().isoformat(), "machine": machine(),
-            "command": " ".join(["./run.sh bench peers", *sys.argv[1:]]), "feature_angle": options.feature_angle,
-            "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows,
-            "threads": [] if options.no_threads else bench_threads(options)}
+    data = {**provenance(" ".join(["./run.sh bench peers", *sys.argv[1:]])), "feature_angle": options.feature_angle,
+            "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows}
     with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:
         json.dump(data, out, indent=1)
     peers_page.write(data)
+    print("\n".join(peers_page.conclusions(data)))
     return 0
 
 

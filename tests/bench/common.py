@@ -1,20 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the benchmarks share: paths, and what one process costs."""
+"""What the benchmarks share: paths, models, the machine, what one process costs and what its result is worth."""
+import datetime
+import json
 import os
+import platform
+import re
 import signal
 import subprocess
+import sys
 import tempfile
-import threading
-import time
 from collections import namedtuple
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
 PROGRAM = os.path.join(ROOT, "build", "bin", "ccdm_remesh")
+MEASURE = os.path.join(ROOT, "build", "bin", "measure_mesh")
 SERVER = os.path.join(ROOT, "build", "host", "bin", "meshlabserver")
 MESHES = os.path.join(ROOT, "..", "shared", "meshes")
 OUT = os.path.join(ROOT, "build", "bench")
-
-
+# Models and vertex counts of a comparison: the real ones, and what stands for them where they are not at hand.
+MODELS = (("joint", 6000), ("twist", 5000), ("wingnut", 6000), ("pig", 10000), ("klein_bottle", 5000),
+          ("max_planck", 10000), ("moai", 10000), ("foot", 6000), ("gargoyle", 18000), ("bunny_scan", 10000),
+          ("julius_noisy", 20000), ("koala", 10000), ("lion_vase", 30000), ("igea", 20000))
+SAMPLES = (("cad_part", 5000), ("twisted_bar", 5000), ("plate", 5000), ("klein_bottle", 5000), ("high_genus", 8000),
+           ("bumpy", 6000), ("bust", 10000))
 Usage = namedtuple("Usage", "cpu wall megabytes")
 
 
@@ -30,21 +39,21 @@ def usage_of(command, limit=3600, **options):
 
     A RuntimeError says why it failed; a process that takes more than `limit` wall seconds is ended.
     """
-    with tempfile.TemporaryFile() as log:
-        start = time.monotonic()
-        process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True, **options)
-        overdue = threading.Timer(limit, os.killpg, (process.pid, signal.SIGKILL))
-        overdue.daemon = True
-        overdue.start()
-        _, status, usage = os.wait4(process.pid, 0)
-        wall = time.monotonic() - start
-        overdue.cancel()
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if wall >= limit:
-            raise RuntimeError(f"not done after {limit:g} s")
-        if process.returncode != 0:
-            raise RuntimeError(f"status {process.returncode}: {last_line(log)}")
-    return Usage(usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024)
+    with tempfile.TemporaryFile() as log, tempfile.NamedTemporaryFile("r", encoding="ascii") as cost:
+        launcher = [sys.executable, "-I", "-S", os.path.join(HERE, "launch.py"), cost.name]
+        process = subprocess.Popen(launcher + command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True,
+                                   **options)
+        try:
+            status = process.wait(limit)
+        except subprocess.TimeoutExpired:
+            raise RuntimeError(f"not done after {limit:g} s") from None
+        finally:
+            if process.returncode is None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+        if status != 0:
+            raise RuntimeError(f"status {status}: {last_line(log)}")
+        return Usage(**json.load(cost))
 
 
 def cpu_seconds(command, **options):
@@ -58,6 +67,30 @@ def model(name):
     path = os.path.join(MESHES, name + ".ply")
     samples = {"joint": "cad_part", "foot": "bumpy", "bunny_scan": "bust", "igea": "bumpy"}
     return path if os.path.exists(path) else os.path.join(ROOT, "sample_meshes", samples.get(name, name) + ".ply")
+
+
+def cases(names=None):
+    """(model, vertices) of the models at hand, or of those of them that are named."""
+    return [case for case in (MODELS if os.path.isdir(MESHES) else SAMPLES) if not names or case[0] in names]
+
+
+def measure(*files):
+    """What measure_mesh prints of one mesh, or of a result against its original."""
+    done = subprocess.run([MEASURE, *files], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError("the result cannot be measured: " + done.stderr.strip().replace(ROOT + os.sep, ""))
+    return json.loads(done.stdout)
+
+
+def machine():
+    cpu = re.search(r"model name\s*: (.*)", open("/proc/cpuinfo", encoding="utf-8").read())
+    return {"cpu": cpu[1] if cpu else platform.machine(), "cores": os.cpu_count(),
+            "system": platform.freedesktop_os_release()["PRETTY_NAME"]}
+
+
+def provenance(command):
+    """When, where and how figures were made."""
+    return {"command": command, "date": datetime.date.today().isoformat(), "machine": machine()}
 
 
 def count_vertices(path):

@@ -3,24 +3,21 @@
 import os
 import statistics
 
-import matplotlib
+import pages
+from common import HERE
+from pages import paragraph, plain_ticks, plt, save
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from matplotlib.ticker import FuncFormatter, LogLocator
-
-HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(HERE, "PEERS.md")
-PICTURES = os.path.join(HERE, "pictures")
 COLUMNS = ("remesher", "CPU s", "CPU / ours", "start s", "vertices", "average smallest angle", "smallest angle",
            "angles < 30 %", "[FB99] average", "Hausdorff", "RMS", "valence 6 %", "topology")
-TEXTS = ("model", "remesher", "which", "version", "takes", "settings", "state", "topology")
+TEXTS = ("model", "remesher", "which", "version", "takes", "settings", "state", "topology", "Hausdorff at most",
+         "RMS at most")
+# The remeshers of the field, by the families of peers.py: those that follow creases and take an edge length.
+FIELD = ("explicit", "cgal", "botsch", "gmsh", "mmgs")
 
 
 def table(head, rows):
-    """A Markdown table; numbers to the right."""
-    lines = ["| " + " | ".join(head) + " |", "|" + "|".join("---" if h in TEXTS else "--:" for h in head) + "|"]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows]
+    return pages.table(head, rows, TEXTS)
 
 
 def measured(data, name):
@@ -66,6 +63,55 @@ def marked(row):
     return row["peer"] + ("" if row["topology_kept"] else " †")
 
 
+def verdict(data, ours):
+    """Of one row of ours: whether it is at least as close as the best of the field, and the ratio of the times."""
+    field = [r for r in rivals(data, ours["model"]) if r["family"] in FIELD]
+    if not field:
+        return None
+    best = {key: min(field, key=lambda r: r[key]) for key in ("hausdorff", "rms")}
+    fast = min(rivals(data, ours["model"]), key=lambda r: r["cpu"])
+    return {"model": ours["model"], "ratio": ours["cpu"] / fast["cpu"], "fast": fast,
+            **{key: (ours[key] <= row[key], row) for key, row in best.items()}}
+
+
+def verdicts(data, mode):
+    """Those of one of the project's modes, of the models where there is something to compare with."""
+    found = [verdict(data, r) for r in data["rows"] if r["peer"] == mode["name"] and not r["reason"]]
+    return [v for v in found if v]
+
+
+def conclusion(mode, found):
+    """One sentence."""
+    ratios = [v["ratio"] for v in found]
+    near, even = (sum(v[key][0] for v in found) for key in ("hausdorff", "rms"))
+    return (f"{mode['name']}: of {len(found)} models, Hausdorff at most that of the best of the field on {near}, RMS "
+            f"on {even}; processor time over the fastest remesher's {min(ratios):.2f} to {max(ratios):.2f}, median "
+            f"{statistics.median(ratios):.2f}, at most 1 on {sum(r <= 1 for r in ratios)}.")
+
+
+def our_modes(data):
+    return [p for p in data["peers"] if p["ours"] and not p["reason"]]
+
+
+def conclusions(data):
+    """A sentence for each of the project's modes."""
+    return [conclusion(mode, found) for mode in our_modes(data) for found in [verdicts(data, mode)] if found]
+
+
+def conclusions_section(data):
+    lines = []
+    for sentence in conclusions(data):
+        first, *rest = paragraph(sentence)
+        lines += ["- " + first, *("  " + line for line in rest)]
+    for mode in our_modes(data):
+        rows = [[v["model"]] + [text for key in ("hausdorff", "rms") for text in (
+                    "yes" if v[key][0] else "**no**", marked(v[key][1]))]
+                + [f"{v['ratio']:.2f}", marked(v["fast"])] for v in verdicts(data, mode)]
+        head = ("model", "Hausdorff at most", "which", "RMS at most", "which", "our CPU / fastest peer's", "which")
+        lines += ["", f"### {mode['name']}", ""] + table(head, rows) if rows else []
+    return lines
+
+
 def summary_row(data, name, ours):
     others = rivals(data, name)
     fast, near, even, best = (min(others, key=key) for key in (
@@ -80,7 +126,7 @@ def summary(data):
     lines = []
     head = ("model", "our CPU s", "fastest peer's / ours", "which", "least Hausdorff / ours", "which",
             "least RMS / ours", "which", "our angle", "best peer's", "which")
-    for peer in (p for p in data["peers"] if p["ours"] and not p["reason"]):
+    for peer in our_modes(data):
         rows = [summary_row(data, r["model"], r) for r in data["rows"]
                 if r["peer"] == peer["name"] and not r["reason"] and rivals(data, r["model"])]
         lines += ["", f"### {peer['name']}", ""] + table(head, rows)
@@ -92,39 +138,11 @@ def peers_section(data):
     return table(("remesher", "version", "takes", "settings", "state"), rows)
 
 
-def threads_section(data):
-    if not data["threads"]:
-        return []
-    rows = [[f"{r['n']:,}"] + [f"{r[key]:.2f}" for key in ("wall_1", "wall_2")]
-            + [f"{r['wall_1'] / r['wall_2']:.2f}"] + [f"{r[key]:.2f}" for key in ("cpu_1", "cpu_2")]
-            for r in data["threads"]]
-    head = ("vertices", "one thread: wall s", "two threads: wall s", "gain", "one thread: CPU s", "two threads: CPU s")
-    first = data["threads"][0]
-    text = (f"The project's default on {first['model']}, not bound to a core. The machine's load average before was "
-            f"{first['load']:.1f}, of which this benchmark made about 1; with more, the gain is not to be trusted.")
-    return (["", "## Threads", "", text, ""] + table(head, rows)
-            + ["", "![Wall time against vertices](pictures/threads.png)"])
-
-
 def colours(data):
     """One colour for each remesher, the same in all pictures: strong ones first."""
     palette = plt.get_cmap("tab20").colors
     palette = palette[0::2] + palette[1::2]
     return {p["name"]: palette[k % len(palette)] for k, p in enumerate(data["peers"])}
-
-
-def plain_ticks(axis):
-    """Ticks at 1, 2 and 5 of each decade of a logarithmic axis, written out."""
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:,g}" if x < 1000 else f"{x:,.0f}"))
-    axis.set_minor_formatter(FuncFormatter(lambda x, _: ""))
-
-
-def save(figure, name):
-    os.makedirs(PICTURES, exist_ok=True)
-    figure.tight_layout()
-    figure.savefig(os.path.join(PICTURES, name), dpi=90)
-    plt.close(figure)
 
 
 def draw_quality(data):
@@ -167,22 +185,8 @@ def draw_histograms(data, names):
     save(figure, "angles.png")
 
 
-def draw_threads(data):
-    figure, axes = plt.subplots(figsize=(5.5, 3.6))
-    sizes = [r["n"] for r in data["threads"]]
-    for threads, label in ((1, "one thread"), (2, "two threads")):
-        axes.loglog(sizes, [r[f"wall_{threads}"] for r in data["threads"]], "o-", label=label)
-    plain_ticks(axes.xaxis)
-    plain_ticks(axes.yaxis)
-    axes.set_xlabel("vertices")
-    axes.set_ylabel("wall seconds")
-    axes.grid(alpha=0.3)
-    axes.legend()
-    save(figure, "threads.png")
-
-
 def draw(data):
-    """Pictures that can be drawn; returns the lines that show the first two."""
+    """The pictures; returns the lines that show those that could be drawn."""
     draw_quality(data)
     lines = ["", "![Quality against time](pictures/quality.png)"]
     shown = [name for name, _ in models_of(data) if reference(data, name) and rivals(data, name)]
@@ -191,8 +195,6 @@ def draw(data):
         picked = list(dict.fromkeys((shown[0], shown[len(shown) // 2], shown[-1])))
         draw_histograms(data, picked)
         lines += ["", "![Angles](pictures/angles.png)"]
-    if data["threads"]:
-        draw_threads(data)
     return lines
 
 
@@ -210,19 +212,18 @@ INTRODUCTION = """Absolute times depend on the machine; the ratios are what coun
   directions; topology is Euler characteristic, components, boundary loops, orientability, manifoldness. All
   measured by the project's `mesh_quality.h`.
 """
+CONCLUSIONS = """The field: MeshLab's explicit remeshing, CGAL, gpytoolbox's Botsch-Kobbelt (the kind that PMP has too),
+Gmsh and mmgs, of which each column takes the best row; the fastest is that of all remeshers. Rows whose
+count is off are left out; † changed the topology."""
 SUMMARY = """Ratios above 1: the best of the others needs more time, or is farther from the input, than ours. Rows
 whose count is off are left out; each column has its own best; † changed the topology."""
 
 
 def write(data):
-    machine = data["machine"]
-    lines = ["# Beside other remeshers", "",
-             f"`{data['command']}`, {data['date']}, {machine['cpu']}, {machine['cores']} cores, {machine['system']}. "
-             "That command writes this page, with figures of that run only.", "",
-             INTRODUCTION.format(**data), "## Summary", "", SUMMARY]
-    lines += summary(data) + draw(data) + threads_section(data) + ["", "## Remeshers", ""] + peers_section(data)
-    lines += ["", "## Models"]
+    lines = ["# Beside other remeshers", ""] + pages.stamp(data, "this page")
+    lines += ["", INTRODUCTION.format(**data), "## Conclusions", "", CONCLUSIONS, ""] + conclusions_section(data)
+    lines += ["", "## Summary", "", SUMMARY] + summary(data) + draw(data)
+    lines += ["", "## Remeshers", ""] + peers_section(data) + ["", "## Models"]
     for name, n in models_of(data):
         lines += model_section(data, name, n)
-    with open(PAGE, "w", encoding="utf-8") as out:
-        out.write("\n".join(lines) + "\n")
+    pages.write_page(PAGE, lines)
