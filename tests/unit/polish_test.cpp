@@ -89,6 +89,33 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
 }
 
+TEST(Polish, ShakesWhatNoSmallMoveHelpsAndSpoilsNothing)
+{
+    int better = 0, left = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
+        Remesh r = meshes::AsRemesh(model);
+        Relocator relocator(model, r);
+        for (unsigned i = 0; i < 3; ++i) {
+            relocator.Sweep(Perturbation{0.5, 100 * seed + i});
+            DelaunayFlipper(meshes::Alone()).Run(r);
+        }
+        Polish polish(model, r);
+        if (polish.RaiseAngles(40, 0.2, 20) == 0)
+            continue;
+        ++left;
+        const double before = SmallestAngle(r);
+        polish.Shake(seed, 50);
+        EXPECT_GE(SmallestAngle(r), before - 1e-9);
+        better += SmallestAngle(r) > before + 1e-3;
+        EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
+        for (int v = 0; v < r.VertexCount(); ++v)
+            EXPECT_LT(model.surface.NearestOn(r.place[v].face, r.position[v]).squaredDistance, 1e-20);
+    }
+    EXPECT_GT(left, 4);
+    EXPECT_GT(better, left / 2);
+}
+
 TEST(ResultCheck, PassesASoundMeshAndFindsBadOnes)
 {
     const Model model = meshes::MakeModel(shapes::Bumpy(3), 600, 180);

@@ -49,7 +49,7 @@ public:
     /// the surface, and raises the smallest angles.
     void Close()
     {
-        ExtremeCapture(_model, _remesh, _probes).Run(5, 30);
+        ExtremeCapture(_model, _remesh, _probes).Run(5, 25);
         Polish polish(_model, _remesh);
         polish.Unfold(10);
         // Measured: the default costs hardly any angle; 1 takes up to a degree.
