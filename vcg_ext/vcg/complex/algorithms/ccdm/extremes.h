@@ -83,7 +83,10 @@ private:
         return s;
     }
 
-    static constexpr double SharpTurn = 120 * Pi / 180; // measured: at 100 more tips stay cut off
+    // A part that is cut off by more than so many spacings may get the sharper turn. Measured: the milder one leaves
+    // such parts cut off, the sharper one is no gain where less is missing.
+    static constexpr double CutOff = 0.45;
+    static constexpr double SharpTurn = 100 * Pi / 180, SharperTurn = 120 * Pi / 180;
 
     // Sharpest turn at the edges in and around the star of v, features apart.
     double SharpestTurn() const
@@ -123,6 +126,8 @@ private:
         if (reached.squaredDistance > 1e-12 * SquaredNorm(target - old))
             return -1;
         const Shape before = Look(v);
+        const bool cutOff = _probe.Distance(r) > CutOff * _model.density.spacing[_probe[r].vertex];
+        const double turn = std::max(before.turn, cutOff ? SharperTurn : SharpTurn);
         // All the way to the tip, or part of it.
         for (const double way : {1.0, 0.75, 0.5}) {
             _remesh.position[v] = target;
@@ -133,7 +138,7 @@ private:
                 _remesh.place[v].face = face;
             }
             const Shape after = Look(v);
-            if (after.turn <= std::max(before.turn, SharpTurn) && after.angle >= std::min(before.angle, minAngle) &&
+            if (after.turn <= turn && after.angle >= std::min(before.angle, minAngle) &&
                 after.distance < before.distance) {
                 _remesh.rho[v] = _model.density.rho[_probe[r].vertex];
                 settled[v] = 1;

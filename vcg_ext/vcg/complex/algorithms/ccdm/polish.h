@@ -252,12 +252,11 @@ private:
             const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
             f.cosine = std::max(f.cosine, LargestCosine(t));
             f.turn = std::min(f.turn, SharpestTurnCosine(t, t));
-            const int *home = std::find_if(std::begin(T.v), std::end(T.v), [&](int v) {
-                return _remesh.place[v].kind == VertexKind::Free;
-            });
+            const int *home = std::find_if(std::begin(T.v), std::end(T.v),
+                                           [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
             if (home != std::end(T.v))
-                f.stray = std::max(f.stray, SquaredDistanceNear(_model, _remesh, *home, (a + b + c) / 3) /
-                                                SquaredNorm(b - a));
+                f.stray = std::max(f.stray,
+                                   SquaredDistanceNear(_model, _remesh, *home, (a + b + c) / 3) / SquaredNorm(b - a));
         }
         return f;
     }
