@@ -12,6 +12,13 @@
 namespace vcg {
 namespace ccdm {
 
+/// Twice the area of triangle k of the star of v; with a density, times the sum of its weights at the corners.
+inline double TriangleMass(const Remesh &remesh, bool uniform, const LocalStar &star, int v, int k)
+{
+    const double area = Norm(star.cross[k]);
+    return uniform ? area : area * (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[star.After(k)]]);
+}
+
 /// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
 struct PatchCentroid {
     static constexpr double Pull = 0.5; ///< share of the displacement that momentum bears; measured
@@ -24,9 +31,7 @@ struct PatchCentroid {
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
             const int next = star.After(k);
-            double m = Norm(star.cross[k]);
-            if (!uniform)
-                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
+            const double m = TriangleMass(remesh, uniform, star, v, k);
             sum += (star.spoke[k] + star.spoke[next]) * m;
             mass += m;
         }
@@ -111,15 +116,12 @@ struct MeanCircumcentre {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const int next = star.After(k);
-            const Point &u = star.spoke[k], &w = star.spoke[next];
+            const Point &u = star.spoke[k], &w = star.spoke[star.After(k)];
             const double m2 = SquaredNorm(star.cross[k]);
             if (!(m2 > 0))
                 continue;
             const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = Dot(u, w);
-            double m = std::sqrt(m2);
-            if (!uniform)
-                m *= remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]];
+            const double m = TriangleMass(remesh, uniform, star, v, k);
             sum += u * (m * ww * (uu - uw) / (2 * m2)) + w * (m * uu * (ww - uw) / (2 * m2));
             mass += m;
         }

@@ -67,7 +67,7 @@ struct Params {
     double lambda = 0.2;
     /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 24 with the
     /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, that many
-    /// there and half as many at full resolution.
+    /// there and three tenths as many at full resolution.
     std::optional<int> globalIterations;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
     int localIterations = 3;
