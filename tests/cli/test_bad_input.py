@@ -96,6 +96,20 @@ def test_quads_are_split_with_a_note(remesh, tmp_path):
         assert "polygons that were split" in run.stdout
 
 
+def test_obj_lines_that_go_on(remesh, tmp_path):
+    points, faces = plyfile.grid(6)
+    plain = plyfile.write_obj(str(tmp_path / "plain.obj"), points, faces)
+    assert remesh(plain, tmp_path / "a.ply", "-n", 100, "--global-iterations", 2).returncode == 0
+    for end in ("\n", "\r\n"):
+        content = open(plain, encoding="ascii").read().replace("\n", end).replace(" ", f" \\{end}")
+        (tmp_path / "broken.obj").write_bytes(content.encode())
+        run = remesh(tmp_path / "broken.obj", tmp_path / "b.ply", "-n", 100, "--global-iterations", 2)
+        assert run.returncode == 0, run.stderr
+        assert (tmp_path / "a.ply").read_bytes() == (tmp_path / "b.ply").read_bytes()
+    (tmp_path / "bad.obj").write_text("v 0 \\\n0 0\nv 0\n")
+    assert "line 3 has fewer" in remesh(tmp_path / "bad.obj", tmp_path / "c.ply", "-n", 100).stderr
+
+
 def test_zero_area_faces_and_loose_vertices_are_noted(remesh, tmp_path):
     points, faces = plyfile.grid(6)
     # A vertex on the middle of a side of the first face: one face without area.

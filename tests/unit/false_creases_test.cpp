@@ -10,7 +10,7 @@ namespace {
 using namespace vcg::ccdm;
 
 struct Kept {
-    int before, after, dropped;
+    int before, after, dropped, droppedEdges;
 };
 
 Kept Creases(const shapes::Shape &s, double angle, double spacing, const SideMarks &marked = {})
@@ -25,9 +25,11 @@ Kept Creases(const shapes::Shape &s, double angle, double spacing, const SideMar
                 n += surface.mesh.Constrained(MakeSide(f, e)) && surface.mesh.Mate(MakeSide(f, e)) < MakeSide(f, e);
         return n;
     };
-    Kept k{count(), 0, 0};
+    Kept k{count(), 0, 0, 0};
     const std::vector<double> h(t.position.size(), spacing);
-    k.dropped = FalseCreases(surface, h, marked, angle).Drop();
+    FalseCreases creases(surface, h, marked, angle);
+    k.dropped = creases.Drop();
+    k.droppedEdges = creases.DroppedEdges();
     k.after = count();
     return k;
 }
@@ -39,7 +41,36 @@ TEST(FalseCreases, TrueCreasesStay)
         EXPECT_GT(k.before, 0);
         EXPECT_EQ(k.after, k.before);
         EXPECT_EQ(k.dropped, 0);
+        EXPECT_EQ(k.droppedEdges, 0);
     }
+}
+
+TEST(FalseCreases, CreasesOfThinPlatesStay)
+{
+    // The neighbourhood of a crease holds both faces of the plate, whose normals cancel.
+    for (const double thickness : {0.03, 0.05, 0.1, 0.2})
+        for (const int rounds : {0, 1, 3}) {
+            shapes::Shape box = shapes::Box(1, 1, thickness), disc = shapes::CadPart();
+            for (int k = 0; k < rounds; ++k)
+                box = shapes::Subdivide(box);
+            for (auto &p : disc.points)
+                p[2] *= thickness;
+            for (const double spacing : {0.4, 0.15, 0.09, 0.05, 0.025})
+                for (const shapes::Shape &s : {box, disc}) {
+                    const Kept k = Creases(s, 40, spacing);
+                    EXPECT_GT(k.before, 0);
+                    EXPECT_EQ(k.after, k.before) << thickness << ' ' << rounds << ' ' << spacing;
+                }
+        }
+}
+
+TEST(FalseCreases, SaysHowManyEdgesWereDropped)
+{
+    EXPECT_EQ(DroppedCreasesWarning(0, 40), "");
+    EXPECT_EQ(DroppedCreasesWarning(1, 40), "1 edge that turns by more than 40 degrees was taken for roughness or a "
+                                            "stray fragment and not for a crease");
+    EXPECT_EQ(DroppedCreasesWarning(3, 32.5), "3 edges that turn by more than 32.5 degrees were taken for roughness "
+                                              "or a stray fragment and not for a crease");
 }
 
 TEST(FalseCreases, NoiseOnASphereHasNone)
@@ -49,6 +80,7 @@ TEST(FalseCreases, NoiseOnASphereHasNone)
     const Kept k = Creases(s, 40, 0.06);
     EXPECT_GT(k.before, 500);
     EXPECT_EQ(k.after, 0);
+    EXPECT_EQ(k.droppedEdges, k.before);
 }
 
 TEST(FalseCreases, CreasesUnderNoiseStay)

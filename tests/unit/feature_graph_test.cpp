@@ -107,6 +107,7 @@ TEST(FeatureGraph, MarkedEdgesAreFeaturesAndNeverPruned)
     const shapes::Shape s = shapes::FlatGrid(10);
     const FeatureGraph g = Graph(s, 180, 1.0, MarkRow(s, 0.5, 0.3, 0.6));
     EXPECT_EQ(g.pruned, 0);
+    EXPECT_EQ(g.prunedEdges, 0);
     EXPECT_NEAR(TotalLength(g), 4.3, 1e-9);
     EXPECT_EQ(g.corner.size(), 6U);
 }
@@ -123,6 +124,7 @@ TEST(FeatureGraph, ShortLooseCreasesArePruned)
     EXPECT_GT(TotalLength(kept), 4 + 0.35);
     EXPECT_NEAR(TotalLength(gone), 4, 0.05);
     EXPECT_GT(gone.pruned, 0);
+    EXPECT_GE(gone.prunedEdges, 4) << "a ridge of four edges at least";
 }
 
 TEST(FeatureGraph, CreaseRunsAroundAFaceWithoutArea)

@@ -136,6 +136,33 @@ TEST(MeshQuality, DistanceIsTheLargerDirection)
     EXPECT_NEAR(d.rms, std::sqrt(0.25 / 3 / 2) / std::sqrt(2.0), 2e-3);
 }
 
+TEST(MeshQuality, DistanceFarFromTheOriginAndAtAnySize)
+{
+    // Moved by what rounds nothing, and scaled by a power of two: the same bits come out. Boxes of single precision
+    // around the points as they are would overlap all over far away, and would be empty at the smallest size.
+    const auto rounded = [](shapes::Shape s, double scale, double offset) {
+        for (auto &p : s.points)
+            for (double &x : p)
+                x = (std::round(x * 0x1p20) * 0x1p-20 + offset) * scale;
+        return s;
+    };
+    const auto distance = [&](double scale, double offset) {
+        MeshD a, b;
+        meshes::Fill(a, rounded(shapes::Sphere(4), scale, offset));
+        meshes::Fill(b, rounded(shapes::Bumpy(3), scale, offset));
+        return vcg::tri::MeshQuality<MeshD>::Distance(a, b, 5000);
+    };
+    const auto wanted = distance(1, 0);
+    EXPECT_GT(wanted.rms, 0);
+    for (const auto &[scale, offset] :
+         {std::pair(1.0, 0x1p24), std::pair(0x1p-90, 0.0), std::pair(0x1p-400, 0.0), std::pair(0x1p300, 0x1p10)}) {
+        const auto got = distance(scale, offset);
+        EXPECT_EQ(got.hausdorffForward, wanted.hausdorffForward) << scale << ' ' << offset;
+        EXPECT_EQ(got.hausdorffBackward, wanted.hausdorffBackward) << scale << ' ' << offset;
+        EXPECT_EQ(got.rms, wanted.rms) << scale << ' ' << offset;
+    }
+}
+
 TEST(MeshQuality, DistanceBetweenMeshTypes)
 {
     MeshD d;

@@ -155,8 +155,84 @@ TEST(TargetSearch, SaysSoWhenTheErrorCannotBeReached)
     const Report r = Search(shapes::Sphere(3), p, out);
     EXPECT_EQ(r.status, Status::NotReached);
     EXPECT_GT(r.reached, 1e-9);
-    EXPECT_NE(r.message.find("came within"), std::string::npos) << r.message;
+    EXPECT_NE(r.message.find(" came within "), std::string::npos) << r.message;
+    EXPECT_EQ(r.message.find("100000"), std::string::npos) << "not the cap, if it was not tried: " << r.message;
     EXPECT_TRUE(out.position.empty());
+}
+
+TEST(TargetSearch, TheDefaultIsTheDefaultGiven)
+{
+    // So that by default too the search begins with runs of few iterations.
+    for (const OptimizerKind optimizer : {OptimizerKind::Accelerated, OptimizerKind::Annealing}) {
+        Params p = ForError(0.02);
+        p.optimizer = optimizer;
+        p.globalIterations.reset();
+        MeshTables unset, set;
+        const Report a = Search(shapes::Bumpy(3), p, unset);
+        p.globalIterations = GlobalIterations(p);
+        const Report b = Search(shapes::Bumpy(3), p, set);
+        ASSERT_EQ(a.status, Status::Done) << a.message;
+        EXPECT_EQ(a.runs, b.runs);
+        EXPECT_EQ(a.reached, b.reached);
+        EXPECT_EQ(unset.position, set.position);
+        EXPECT_EQ(unset.face, set.face);
+    }
+}
+
+TEST(TargetSearch, TheLargestErrorIsTheSameFarFromTheOriginAndAtAnySize)
+{
+    // Coordinates of few digits, so that moving them rounds nothing. Boxes of single precision around the moved
+    // points would hold everything, those of the shrunken ones nothing.
+    shapes::Shape near = shapes::Bumpy(3);
+    for (auto &q : near.points)
+        for (double &x : q)
+            x = std::round(x * 0x1p20) * 0x1p-20;
+    shapes::Shape far = near, small = near;
+    for (auto &q : far.points)
+        for (double &x : q)
+            x += 0x1p24;
+    for (auto &q : small.points)
+        for (double &x : q)
+            x *= 0x1p-90;
+    MeshTables a, b, c;
+    const Report atOrigin = Search(near, ForError(0.02), a), away = Search(far, ForError(0.02), b),
+                 tiny = Search(small, ForError(0.02), c);
+    ASSERT_EQ(atOrigin.status, Status::Done) << atOrigin.message;
+    // The result's coordinates are rounded out there.
+    EXPECT_NEAR(away.reached, atOrigin.reached, 1e-6);
+    EXPECT_EQ(b.face, a.face);
+    EXPECT_EQ(tiny.reached, atOrigin.reached);
+    EXPECT_EQ(c.face, a.face);
+}
+
+TEST(TargetSearch, AnEdgeLengthOutOfReachIsTold)
+{
+    const shapes::Shape triangle = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    MeshTables out;
+    const Report r = Search(triangle, ForLength(100), out);
+    ASSERT_EQ(r.status, Status::Done) << r.message;
+    EXPECT_LT(r.reached, 2);
+    ASSERT_FALSE(r.warnings.empty());
+    EXPECT_NE(r.warnings.back().find("the edge length asked for was not reached"), std::string::npos);
+    EXPECT_NE(r.warnings.back().find("fewer vertices cannot be had"), std::string::npos);
+}
+
+TEST(TargetSearch, RefusesFacesOfMissingVertices)
+{
+    for (const int index : {-1, 42, 1 << 30}) {
+        MeshTables in = meshes::Tables(shapes::Sphere(1)), out;
+        in.face[5][1] = index;
+        for (const bool byError : {false, true}) {
+            Params p;
+            if (byError)
+                p.maxError = 0.1;
+            else
+                p.vertexCount = 100;
+            const Report r = TargetSearch(p, nullptr).Run(in, out);
+            EXPECT_EQ(r.status, Status::InvalidInput);
+            EXPECT_EQ(r.message, "a face names a vertex that does not exist");
+        }
+    }
 }
 
 TEST(TargetSearch, WantsExactlyOneTarget)

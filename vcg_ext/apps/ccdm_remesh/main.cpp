@@ -53,8 +53,8 @@ int ExitStatusOf(Status s)
         return Done;
     case Status::Cancelled:
         return Interrupted;
+    // The arguments have been checked by themselves: what is left is wrong for this input.
     case Status::InvalidParameter:
-        return WrongUsage;
     case Status::InvalidInput:
         return Refused;
     case Status::CheckFailed:
@@ -65,6 +65,11 @@ int ExitStatusOf(Status s)
     return CheckFailed;
 }
 
+double SecondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // From file to file; the status and the message say how it ended.
 void Remesh(const Options &options, RunSummary &run)
 {
@@ -72,8 +77,11 @@ void Remesh(const Options &options, RunSummary &run)
     const auto end = [&](int status, const std::string &message) {
         run.status = status;
         run.message = message;
-        run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        run.seconds = SecondsSince(start);
     };
+    const std::string unwritable = FindWriteFault(options.output);
+    if (!unwritable.empty())
+        return end(NotWritten, options.output + ": " + unwritable);
     Mesh input, result;
     const ReadResult read = ReadMesh(options.input, input);
     if (!read.fault.empty())
@@ -87,12 +95,14 @@ void Remesh(const Options &options, RunSummary &run)
     const std::string fault = WriteMesh(options.output, result);
     if (!fault.empty())
         return end(NotWritten, options.output + ": " + fault);
-    end(Done, "");
     if (!options.quiet || !options.report.empty()) {
+        const auto written = std::chrono::steady_clock::now();
         run.before = Quality::Measure(input);
         run.after = Quality::Measure(result);
         run.distance = Quality::Distance(input, result);
+        run.engine.seconds.emplace_back("measuring", SecondsSince(written));
     }
+    end(Done, "");
 }
 
 } // namespace
@@ -103,6 +113,11 @@ int main(int argc, char **argv)
     const int usage = ParseArguments(argc, argv, options);
     if (usage >= 0)
         return usage;
+    const std::string unwritable = options.report.empty() ? "" : FindWriteFault(options.report);
+    if (!unwritable.empty()) {
+        std::cerr << "ccdm_remesh: " << options.report << ": " << unwritable << '\n';
+        return NotWritten;
+    }
     std::signal(SIGINT, [](int) { interrupted = 1; });
     showProgress = !options.quiet && IsTerminal(stderr);
     RunSummary run;

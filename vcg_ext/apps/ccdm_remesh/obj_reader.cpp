@@ -27,6 +27,24 @@ const char *SkipBlanks(const char *p)
     return p;
 }
 
+// Next line; a backslash at its end joins it with the one after it. `number` counts the lines of the file.
+bool NextLine(std::ifstream &in, std::string &line, long long &number)
+{
+    if (!std::getline(in, line))
+        return false;
+    ++number;
+    std::string more;
+    for (;;) {
+        if (!line.empty() && line.back() == '\r')
+            line.pop_back();
+        if (line.empty() || line.back() != '\\' || !std::getline(in, more))
+            return true;
+        ++number;
+        line.back() = ' ';
+        line += more;
+    }
+}
+
 // The first index of "v/t/n", from 1 or back from the last vertex; what follows it is skipped.
 bool NextIndex(const char *&rest, long long &index)
 {
@@ -52,7 +70,7 @@ std::string ReadObj(const std::string &path, Mesh &mesh, int &fromPolygons)
     std::vector<long long> corners;
     std::string line;
     fromPolygons = 0;
-    for (long long number = 1; std::getline(in, line); ++number) {
+    for (long long number = 0; NextLine(in, line, number);) {
         const auto fault = [&](const char *what) { return "line " + std::to_string(number) + " " + what; };
         const char *rest = SkipBlanks(line.c_str());
         const bool blank = rest[0] != 0 && (rest[1] == ' ' || rest[1] == '\t');

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <vcg/complex/algorithms/ccdm/target_search.h>
+
 #include "mesh_io.h"
 
 namespace ccdm_remesh {
@@ -141,8 +143,11 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         j["result"]["extra_vertices"] = e.extraVertices;
         j["result"]["mean_edge_length"] = Number(e.meanEdgeLength);
     }
-    j["target"] = {
-        {"kind", NameOf(e.target)}, {"asked", Number(e.asked)}, {"reached", Number(e.reached)}, {"runs", e.runs}};
+    j["target"] = {{"kind", NameOf(e.target)},
+                   {"asked", Number(e.asked)},
+                   {"reached", Number(e.reached)},
+                   {"met", vcg::ccdm::TargetSearch::Met(e)},
+                   {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
     j["smallest_angle"] = run.after ? AnglesJson(e.angles) : Json(nullptr);
@@ -192,7 +197,8 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     if (run.engine.target != vcg::ccdm::TargetKind::Vertices)
         out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
             << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
-            << run.engine.reached << " in " << run.engine.runs << (run.engine.runs == 1 ? " run\n" : " runs\n");
+            << run.engine.reached << (vcg::ccdm::TargetSearch::Met(run.engine) ? "" : " (not met)") << " in "
+            << run.engine.runs << (run.engine.runs == 1 ? " run\n" : " runs\n");
     const vcg::ccdm::AngleCertificate &angles = run.engine.angles;
     out << "  triangles below " << std::defaultfloat << std::setprecision(4) << angles.target
         << " deg: " << angles.below.size();

@@ -20,7 +20,7 @@ struct RunSummary {
     vcg::ccdm::Report engine;
     std::optional<vcg::tri::MeshQualityReport> before, after;
     std::optional<vcg::tri::SurfaceDistance> distance;
-    double seconds = 0; ///< wall time of reading, remeshing and writing
+    double seconds = 0; ///< wall time of reading, remeshing, writing and measuring
 };
 
 /// Writes the JSON report. Returns what went wrong, or an empty string.

@@ -2,6 +2,7 @@
 #ifndef VCG_CCDM_REMESHING_H
 #define VCG_CCDM_REMESHING_H
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,14 @@ private:
     using CoordType = typename MeshType::CoordType;
     using ScalarType = typename MeshType::ScalarType;
 
+    // Of a vertex in the tables; -1 if it is deleted or none of the mesh's, which the remesher refuses.
+    static int IndexOf(const MeshType &m, const typename MeshType::VertexType *v, const std::vector<int> &index)
+    {
+        const auto *first = m.vert.data();
+        const std::less<> before; // the pointers may belong to different arrays
+        return v == nullptr || before(v, first) || !before(v, first + m.vert.size()) ? -1 : index[v - first];
+    }
+
     static ccdm::MeshTables Import(const MeshType &m, const Params &params)
     {
         ccdm::MeshTables tables;
@@ -70,7 +79,7 @@ private:
             std::array<int, 3> corner;
             unsigned bits = 0;
             for (int k = 0; k < 3; ++k) {
-                corner[k] = index[f.cV(k) - m.vert.data()];
+                corner[k] = IndexOf(m, f.cV(k), index);
                 // vcg's edge k runs from corner k to the next: opposite the one after that.
                 if (params.useMarkedEdges && f.IsFaceEdgeS(k))
                     bits |= 1U << ((k + 2) % 3);

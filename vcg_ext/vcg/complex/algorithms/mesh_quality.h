@@ -70,7 +70,10 @@ public:
     template <class OtherMesh>
     static SurfaceDistance Distance(const MeshType &original, const OtherMesh &result, int samples = 100000)
     {
-        const TriangleSoup a = TriangleSoup::From(original), b = TriangleSoup::From(result);
+        TriangleSoup a = TriangleSoup::From(original);
+        const UnitFrame frame(a);
+        a = frame.Place(std::move(a));
+        const TriangleSoup b = frame.Place(TriangleSoup::From(result));
         const double diagonal = a.Diagonal();
         SurfaceDistance d;
         if (!(diagonal > 0) || a.face.empty() || b.face.empty())

@@ -44,6 +44,7 @@ struct FeatureGraph {
     std::vector<FeatureCurve> curve;
     std::vector<int> corner; ///< reference vertices
     int pruned = 0;          ///< loose chains that were too short to keep
+    int prunedEdges = 0;     ///< edges of those chains
 };
 
 /// One bit a side for each face, as callers mark edges; empty: none.
@@ -244,6 +245,7 @@ private:
             if (!removable || chain.empty())
                 continue;
             ++_graph.pruned;
+            _graph.prunedEdges += static_cast<int>(chain.size());
             for (const Side s : chain) {
                 --degree[_mesh.Tail(s)];
                 --degree[_mesh.Head(s)];

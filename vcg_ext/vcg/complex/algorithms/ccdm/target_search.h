@@ -25,14 +25,15 @@ class ErrorMeter
 public:
     /// `original` has passed the input check.
     explicit ErrorMeter(const MeshTables &original)
-        : _original{original.position, original.face}, _tree(_original), _diagonal(_original.Diagonal())
+        : _frame(tri::TriangleSoup{original.position, original.face}),
+          _original(_frame.Place({original.position, original.face})), _tree(_original), _diagonal(_original.Diagonal())
     {
     }
 
     /// The maximum is searched to 1 percent.
     double Measure(const MeshTables &mesh, Workers &workers) const
     {
-        const tri::TriangleSoup other{mesh.position, mesh.face};
+        const tri::TriangleSoup other = _frame.Place({mesh.position, mesh.face});
         const tri::TriangleTree tree(other);
         std::array<double, 2> way = {0, 0};
         workers.For(2, [&](int k, int) {
@@ -46,6 +47,7 @@ public:
 private:
     static constexpr int Samples = 100000;
 
+    const tri::UnitFrame _frame;
     const tri::TriangleSoup _original;
     const tri::TriangleTree _tree;
     const double _diagonal;
@@ -56,6 +58,7 @@ class TargetSearch
 {
 public:
     using Progress = Remesher::Progress;
+    static constexpr double EdgeTolerance = 0.02;
 
     TargetSearch(const Params &params, Progress progress) : _params(params), _progress(std::move(progress)) {}
 
@@ -66,9 +69,11 @@ public:
             (_params.vertexCount != 0) + _params.edgeLength.has_value() + _params.maxError.has_value() == 1;
         const TargetKind target = TargetOf(_params);
         // The remesher refuses what is not one target.
-        Report report = !one || target == TargetKind::Vertices ? One(input, _params, 100, output)
-                        : target == TargetKind::EdgeLength     ? ForEdgeLength(input, output)
-                                                               : ForMaxError(input, output);
+        Report report = NamesMissingVertices(input)
+                            ? Fail(Report(), Status::InvalidInput, "a face names a vertex that does not exist")
+                        : !one || target == TargetKind::Vertices ? One(input, _params, 100, output)
+                        : target == TargetKind::EdgeLength       ? ForEdgeLength(input, output)
+                                                                 : ForMaxError(input, output);
         report.target = target;
         report.runs = _runs;
         report.seconds = _seconds;
@@ -88,6 +93,22 @@ public:
         if (report.status == Status::Done && _progress && _last < 100)
             _progress(100, "done"); // nothing is left to cancel
         return report;
+    }
+
+    /// Whether a run has reached what was asked for, an edge length to 2 percent.
+    static bool Met(const Report &r)
+    {
+        if (r.status != Status::Done)
+            return false;
+        switch (r.target) {
+        case TargetKind::Vertices:
+            return r.reached == r.asked;
+        case TargetKind::EdgeLength:
+            return std::abs(r.reached / r.asked - 1) <= EdgeTolerance;
+        case TargetKind::MaxError:
+            return r.reached <= r.asked;
+        }
+        return false;
     }
 
 private:
@@ -124,6 +145,14 @@ private:
                 return;
             }
         _seconds.emplace_back(phase, seconds);
+    }
+
+    static bool NamesMissingVertices(const MeshTables &input)
+    {
+        const auto vertices = static_cast<int>(input.position.size());
+        return std::any_of(input.face.begin(), input.face.end(), [&](const auto &f) {
+            return std::any_of(f.begin(), f.end(), [&](int v) { return v < 0 || v >= vertices; });
+        });
     }
 
     static Report Fail(Report report, Status status, const std::string &why)
@@ -166,9 +195,11 @@ private:
                 }
             }
         }
-        if (off(report) > 2 * EdgeTolerance)
-            report.warnings.push_back("the mean edge length is " + Text(report.meanEdgeLength) + " instead of " +
-                                      Text(length));
+        if (off(report) > EdgeTolerance)
+            report.warnings.push_back(
+                "the edge length asked for was not reached: the mean is " + Text(report.meanEdgeLength) +
+                " instead of " + Text(length) +
+                (report.requestedVertices <= 4 || report.extraVertices > 0 ? ", as fewer vertices cannot be had" : ""));
         output = std::move(mesh);
         return report;
     }
@@ -197,7 +228,7 @@ private:
         MeshTables bestMesh;
         Report last;
         int n = static_cast<int>(std::clamp(1 / bound, 30.0, std::clamp(2 * inputs, 100.0, MostFirst)));
-        bool full = _params.globalIterations <= TrialIterations;
+        bool full = GlobalIterations(_params) <= TrialIterations;
         while (_runs < MostRuns) {
             Params params = _params;
             params.maxError.reset();
@@ -231,22 +262,24 @@ private:
             n = next;
         }
         if (!best)
-            return NotReached(std::move(last), trials, bound, most);
+            return NotReached(std::move(last), trials, bound);
         output = std::move(bestMesh);
         return std::move(*best);
     }
 
-    static Report NotReached(Report report, const std::vector<Trial> &trials, double bound, int most)
+    static Report NotReached(Report report, const std::vector<Trial> &trials, double bound)
     {
         const Trial &closest = *std::min_element(trials.begin(), trials.end(),
                                                  [](const Trial &a, const Trial &b) { return a.error < b.error; });
+        const Trial &largest = *std::max_element(
+            trials.begin(), trials.end(), [](const Trial &a, const Trial &b) { return a.vertices < b.vertices; });
         report.reached = closest.error;
         if (!std::isfinite(closest.error))
             return report;
         return Fail(std::move(report), Status::NotReached,
                     "the error " + Text(bound) + " was not reached in " + std::to_string(trials.size()) +
-                        " runs of up to " + std::to_string(most) + " vertices: " + std::to_string(closest.vertices) +
-                        " came within " + Text(closest.error));
+                        (trials.size() == 1 ? " run" : " runs") + " of up to " + std::to_string(largest.vertices) +
+                        " vertices: " + std::to_string(closest.vertices) + " came within " + Text(closest.error));
     }
 
     // The largest distance is known to 1 percent.
@@ -322,7 +355,6 @@ private:
         return std::exp(x + y / slope);
     }
 
-    static constexpr double EdgeTolerance = 0.02;
     static constexpr int MostRuns = 8;
     static constexpr int TrialIterations = 4;
     static constexpr double LeastCap = 100000, MostCap = 4000000, MostFirst = 20000;

@@ -49,8 +49,8 @@ struct TriangleSoup {
         return used;
     }
 
-    /// Of the bounding box of the vertices that faces use.
-    double Diagonal() const
+    /// Bounding box of the vertices that faces use: its lowest and its highest corner.
+    std::array<Vector, 2> Box() const
     {
         Vector low(0, 0, 0), high(0, 0, 0);
         bool first = true;
@@ -64,12 +64,45 @@ struct TriangleSoup {
             }
             first = false;
         }
+        return {low, high};
+    }
+
+    double Diagonal() const
+    {
+        const auto [low, high] = Box();
         return (high - low).Norm();
     }
 };
 
+/// The frame in which surfaces are compared with an original: the middle of its bounding box at the origin, its
+/// extent about 1. Single precision is then enough for boxes, wherever the original lies and however small it is.
+class UnitFrame
+{
+public:
+    explicit UnitFrame(const TriangleSoup &original)
+    {
+        const auto [low, high] = original.Box();
+        _middle = low + (high - low) / 2.0;
+        const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+        // A power of two scales without rounding; at the ends of the range it would not be one.
+        if (extent > 0 && std::isfinite(extent))
+            _factor = std::ldexp(1.0, -std::clamp(std::ilogb(extent), -1000, 1000));
+    }
+
+    TriangleSoup Place(TriangleSoup soup) const
+    {
+        for (TriangleSoup::Vector &p : soup.point)
+            p = (p - _middle) * _factor;
+        return soup;
+    }
+
+private:
+    TriangleSoup::Vector _middle;
+    double _factor = 1;
+};
+
 /// Bounding volume hierarchy over triangles for nearest-point queries; boxes in single precision,
-/// rounded outwards, so that a node is 32 bytes.
+/// rounded outwards, so that a node is 32 bytes. The soup is to lie in a UnitFrame.
 class TriangleTree
 {
 public:
@@ -210,7 +243,7 @@ struct Deviation {
     double rms = 0;
 };
 
-/// One-sided distances from a surface to the triangles of a tree, by sampling.
+/// One-sided distances from a surface to the triangles of a tree, by sampling. Both lie in one UnitFrame.
 class DeviationMeter
 {
 public:
