@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/parameters.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 #include <vcg/complex/algorithms/ccdm/thin_parts.h>
 
@@ -30,16 +31,33 @@ public:
     /// Positions are those of the remesh.
     AngleCertificate Run()
     {
+        Workers alone(1);
+        return Run(alone);
+    }
+    AngleCertificate Run(Workers &workers)
+    {
+        struct Found {
+            double least = 180;
+            std::vector<std::pair<int, double>> below; // triangles and their angles
+        };
+        std::vector<Found> found(Chunks::Count(_remesh.mesh.TriangleCount()));
+        Chunks::For(workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int chunk) {
+            for (int t = first; t < last; ++t) {
+                const double angle = Smallest(t);
+                found[chunk].least = std::min(found[chunk].least, angle * 180 / Pi);
+                if (!(angle >= _target - Slack))
+                    found[chunk].below.emplace_back(t, angle);
+            }
+        });
         AngleCertificate result;
         result.target = _target * 180 / Pi;
         result.reached = 180;
-        for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t) {
-            const double angle = Smallest(t);
-            result.reached = std::min(result.reached, angle * 180 / Pi);
-            if (angle >= _target - Slack)
-                continue;
-            const Point c = Centroid(t);
-            result.below.push_back({t, angle * 180 / Pi, {c[0], c[1], c[2]}, Reason(t)});
+        for (const Found &f : found) {
+            result.reached = std::min(result.reached, f.least);
+            for (const auto &[t, angle] : f.below) {
+                const Point c = Centroid(t);
+                result.below.push_back({t, angle * 180 / Pi, {c[0], c[1], c[2]}, Reason(t)});
+            }
         }
         return result;
     }

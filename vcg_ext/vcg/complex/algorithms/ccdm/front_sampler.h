@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/sampling.h>
 
 namespace vcg {
@@ -20,10 +21,13 @@ class PointBuckets
 public:
     PointBuckets(double base, std::size_t expected) : _base(base)
     {
-        std::size_t size = 16;
-        while (size < 2 * expected)
+        std::size_t size = BlockCells;
+        while (size < 4 * expected)
             size *= 2;
         _head.assign(size, -1);
+        _entry.reserve(expected);
+        for (int level = 0; level < Levels; ++level)
+            _cell[level] = std::ldexp(base, level - BaseLevel);
     }
 
     int Size() const { return static_cast<int>(_entry.size()); }
@@ -32,10 +36,11 @@ public:
     {
         const int level = Level(spacing);
         _levels |= std::uint64_t(1) << level;
-        const double cell = Cell(level);
-        const std::size_t b = Bucket(level, Floor(p[0] / cell), Floor(p[1] / cell), Floor(p[2] / cell));
-        _entry.push_back({p, _head[b]});
-        _head[b] = Size() - 1;
+        const double cell = _cell[level];
+        const int i = Floor(p[0] / cell), j = Floor(p[1] / cell), k = Floor(p[2] / cell);
+        int &head = _head[Block(Column(level, i, j), k) + Offset(i, j, k)];
+        _entry.push_back({p, head});
+        head = Size() - 1;
     }
 
     /// Calls visit(index, squared distance) for every point within `radius` of p whose spacing is within
@@ -44,23 +49,25 @@ public:
     void Near(const Point &p, double radius, double spacing, Visit visit) const
     {
         const int own = Level(spacing);
-        for (int level = std::max(own - 2, 0); level <= std::min(own + 2, 63); ++level) {
+        for (int level = std::max(own - 2, 0); level <= std::min(own + 2, Levels - 1); ++level) {
             if (((_levels >> level) & 1) == 0)
                 continue;
-            const double cell = Cell(level);
+            const double cell = _cell[level];
             int low[3], high[3];
             for (int k = 0; k < 3; ++k) {
                 low[k] = Floor((p[k] - radius) / cell);
                 high[k] = Floor((p[k] + radius) / cell);
             }
             for (int i = low[0]; i <= high[0]; ++i)
-                for (int j = low[1]; j <= high[1]; ++j)
+                for (int j = low[1]; j <= high[1]; ++j) {
+                    const std::uint64_t column = Column(level, i, j);
                     for (int k = low[2]; k <= high[2]; ++k)
-                        for (int at = _head[Bucket(level, i, j, k)]; at >= 0; at = _entry[at].next) {
+                        for (int at = _head[Block(column, k) + Offset(i, j, k)]; at >= 0; at = _entry[at].next) {
                             const double d = SquaredNorm(_entry[at].point - p);
                             if (d < radius * radius && !visit(at, d))
                                 return;
                         }
+                }
         }
     }
 
@@ -69,24 +76,43 @@ private:
         Point point;
         int next;
     };
-    double _base;
+    static constexpr int Levels = 64, BaseLevel = 32;
+    // Cells are hashed in blocks of four by four by four, so that those around a place share cache lines.
+    static constexpr std::size_t BlockCells = 64;
+
+    const double _base;
+    std::array<double, Levels> _cell; // edge of the cubes of each level
     std::uint64_t _levels = 0;
     std::vector<int> _head;
     std::vector<Entry> _entry;
 
+    // The least whole number, within bounds, that is not below the logarithm but for rounding.
     int Level(double spacing) const
     {
-        return std::clamp(32 + static_cast<int>(std::ceil(std::log2(spacing / _base) - 1e-9)), 0, 63);
+        int exponent = 0;
+        const double fraction = std::frexp(spacing / _base, &exponent);
+        return std::clamp(BaseLevel + exponent - (fraction <= 0.5 * (1 + 7e-10) ? 1 : 0), 0, Levels - 1);
     }
-    double Cell(int level) const { return std::ldexp(_base, level - 32); }
-    static int Floor(double x) { return static_cast<int>(std::floor(std::clamp(x, -1e9, 1e9))); }
-    std::size_t Bucket(int level, int i, int j, int k) const
+    static int Floor(double x)
     {
-        std::uint64_t h = static_cast<std::uint32_t>(i) * 0x9e3779b97f4a7c15ULL;
-        h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(j)) * 0xbf58476d1ce4e5b9ULL;
-        h = (h ^ (h >> 29) ^ static_cast<std::uint32_t>(k)) * 0x94d049bb133111ebULL;
-        h += static_cast<std::uint64_t>(level) * 0x632be59bd9b4e019ULL;
-        return (h ^ (h >> 31)) & (_head.size() - 1);
+        x = std::clamp(x, -1e9, 1e9);
+        const int towardsZero = static_cast<int>(x);
+        return towardsZero - (x < towardsZero ? 1 : 0);
+    }
+    static std::uint64_t Column(int level, int i, int j)
+    {
+        const std::uint64_t h = static_cast<std::uint32_t>(i >> 2) * 0x9e3779b97f4a7c15ULL;
+        return (h ^ (h >> 29) ^ static_cast<std::uint32_t>(j >> 2)) * 0xbf58476d1ce4e5b9ULL +
+               static_cast<std::uint64_t>(level) * 0x632be59bd9b4e019ULL;
+    }
+    std::size_t Block(std::uint64_t column, int k) const
+    {
+        const std::uint64_t h = (column ^ (column >> 29) ^ static_cast<std::uint32_t>(k >> 2)) * 0x94d049bb133111ebULL;
+        return (h ^ (h >> 31)) & (_head.size() - BlockCells);
+    }
+    static std::size_t Offset(int i, int j, int k)
+    {
+        return static_cast<std::size_t>((i & 3) << 4 | (j & 3) << 2 | (k & 3));
     }
 };
 
@@ -108,25 +134,30 @@ public:
     /// Exactly `count` points on faces.
     std::vector<SurfacePoint> Run(const std::vector<CurveSample> &onCurves, int count, Random &random)
     {
+        Workers alone(1);
+        return Run(onCurves, count, random, alone);
+    }
+    std::vector<SurfacePoint> Run(const std::vector<CurveSample> &onCurves, int count, Random &random, Workers &workers)
+    {
         std::vector<SurfacePoint> best;
         if (count <= 0)
             return best;
-        double scale = 1;
+        double scale = FirstScale;
         int closest = -1;
         for (int round = 0; round < 3; ++round) {
-            const std::vector<SurfacePoint> found = Advance(onCurves, count, scale, random);
-            const int miss = std::abs(static_cast<int>(found.size()) - count);
+            std::vector<SurfacePoint> found = Advance(onCurves, count, scale, random);
+            const int size = static_cast<int>(found.size()), miss = std::abs(size - count);
             if (closest < 0 || miss < closest) {
                 closest = miss;
-                best = found;
+                best.swap(found);
                 _bestScale = scale;
             }
             if (miss <= 2 + count / 200)
                 break;
-            scale *= std::sqrt(static_cast<double>(std::max<std::size_t>(found.size(), 1)) / count);
+            scale *= std::sqrt(static_cast<double>(std::max(size, 1)) / count);
         }
         if (static_cast<int>(best.size()) > count)
-            Thin(best, count);
+            Thin(best, count, workers);
         else if (static_cast<int>(best.size()) < count)
             Fill(best, onCurves, count, random);
         return best;
@@ -142,6 +173,9 @@ private:
         SurfacePoint at;
         Point point, direction; // the direction in which the front came, in the plane of its face
     };
+
+    // Measured: gaps where fronts meet leave 2 to 6 percent too few points at the wanted spacing.
+    static constexpr double FirstScale = 0.983;
 
     const ReferenceSurface &_surface;
     const FeatureGraph &_features;
@@ -273,7 +307,7 @@ private:
         const double turn[6][2] = {{1, 0}, {half, root}, {half, -root}, {-half, root}, {-half, -root}, {-1, 0}};
         const double h = Spacing(s.at);
         for (const auto &t : turn)
-            Propose(buckets, s.at, s.point, along * t[0] + across * t[1], h, found);
+            Propose(buckets, s.at, s.point, normal, along * t[0] + across * t[1], h, found);
     }
 
     // Into both faces, where the apices of equilateral triangles on the curve would lie.
@@ -297,19 +331,20 @@ private:
                 at.weight[i] = T.v[i] == curve.vertex[k] ? 1 - fraction : T.v[i] == curve.vertex[k + 1] ? fraction : 0;
             const Point apex = Corner(face, SideEdge(side)) - p;
             const Point inward = Normalized(apex - along * Dot(apex, along));
+            const Point normal = Normalized(_surface.AreaVector(face));
             for (const double s : {0.5, -0.5})
-                Propose(buckets, at, p, along * s + inward * 0.8660254037844386, h, found);
+                Propose(buckets, at, p, normal, along * s + inward * 0.8660254037844386, h, found);
         }
     }
 
-    void Propose(PointBuckets &buckets, const SurfacePoint &from, const Point &start, const Point &direction,
-                 double length, std::vector<SurfacePoint> &found)
+    void Propose(PointBuckets &buckets, const SurfacePoint &from, const Point &start, const Point &normal,
+                 const Point &direction, double length, std::vector<SurfacePoint> &found)
     {
         // Most proposals are taken already: a look at where the line would end on a flat surface saves it.
         const Point end = start + direction * length;
         bool taken = false;
         buckets.Near(end, 0.3 * length, length, [&](int i, double) {
-            taken = _keeper[i].face >= 0 && Compatible(_keeper[i], Normalized(_surface.AreaVector(from.face)));
+            taken = _keeper[i].face >= 0 && Compatible(_keeper[i], normal);
             return !taken;
         });
         if (taken)
@@ -377,26 +412,28 @@ private:
     }
 
     // Takes away the samples with the nearest neighbours.
-    void Thin(std::vector<SurfacePoint> &samples, int count)
+    void Thin(std::vector<SurfacePoint> &samples, int count, Workers &workers)
     {
         _scale = _bestScale;
         PointBuckets buckets(_base, samples.size());
         for (const SurfacePoint &s : samples)
             buckets.Add(_surface.At(s), Spacing(s));
-        std::vector<std::pair<double, int>> order;
+        std::vector<std::pair<double, int>> order(samples.size());
         std::vector<int> nearest(samples.size(), -1);
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            const double h = Spacing(samples[i]);
-            double closest = 2 * h * h;
-            buckets.Near(_surface.At(samples[i]), 1.4 * h, h, [&](int k, double d) {
-                if (k != static_cast<int>(i) && d < closest) {
-                    closest = d;
-                    nearest[i] = k;
-                }
-                return true;
-            });
-            order.emplace_back(closest / (h * h), static_cast<int>(i));
-        }
+        Chunks::For(workers, buckets.Size(), [&](int first, int last, int) {
+            for (int i = first; i < last; ++i) {
+                const double h = Spacing(samples[i]);
+                double closest = 2 * h * h;
+                buckets.Near(_surface.At(samples[i]), 1.4 * h, h, [&](int k, double d) {
+                    if (k != i && d < closest) {
+                        closest = d;
+                        nearest[i] = k;
+                    }
+                    return true;
+                });
+                order[i] = {closest / (h * h), i};
+            }
+        });
         std::sort(order.begin(), order.end());
         std::vector<char> gone(samples.size(), 0);
         int left = static_cast<int>(samples.size());

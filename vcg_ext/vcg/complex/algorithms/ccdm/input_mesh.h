@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/feature_graph.h>
 #include <vcg/complex/algorithms/ccdm/geometry.h>
 #include <vcg/complex/algorithms/ccdm/parameters.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 
 namespace vcg {
 namespace ccdm {
@@ -30,16 +33,18 @@ class InputMesh
 {
 public:
     MeshTables mesh;
+    Triangulation tables;      ///< of the mesh, glued; empty if the input is refused before
     std::vector<int> original; ///< vertex of the caller's mesh for each vertex
     InputDefects defects;
     TopologyCounts topology;
     std::string refusal; ///< why the input cannot be remeshed; empty if it can
 
-    explicit InputMesh(const MeshTables &input)
+    InputMesh(const MeshTables &input, Workers &workers)
     {
-        if (Select(input) && CheckEdges() && CheckVertices())
+        if (Select(input) && CheckEdges(workers) && CheckVertices(workers))
             CheckArea();
     }
+    explicit InputMesh(const MeshTables &input) : InputMesh(input, *std::make_unique<Workers>(1)) {}
 
     /// Back from unit size to the caller's coordinates.
     Point Restore(const Point &p) const { return p * _scale + _center; }
@@ -170,36 +175,40 @@ private:
             mesh.marked.swap(sortedBits);
     }
 
-    bool CheckEdges()
+    // The faces are in the order of their first vertices, which are their lowest.
+    bool CheckEdges(Workers &workers)
     {
-        std::vector<std::array<int, 3>> sorted = mesh.face;
-        for (auto &f : sorted)
-            std::sort(f.begin(), f.end());
-        std::sort(sorted.begin(), sorted.end());
-        for (std::size_t t = 1; t < sorted.size(); ++t)
-            defects.duplicateFaces += sorted[t] == sorted[t - 1];
-        std::vector<int> start(mesh.position.size() + 1, 0);
-        for (const auto &f : sorted)
-            for (const int low : {f[0], f[0], f[1]})
-                ++start[low + 1];
-        for (std::size_t v = 0; v + 1 < start.size(); ++v)
+        const std::size_t vertices = mesh.position.size();
+        std::vector<int> startFace(vertices + 1, 0), start(vertices + 1, 0);
+        for (const auto &f : mesh.face) {
+            ++startFace[f[0] + 1];
+            start[f[0] + 1] += 2;
+            ++start[std::min(f[1], f[2]) + 1];
+        }
+        for (std::size_t v = 0; v < vertices; ++v) {
+            startFace[v + 1] += startFace[v];
             start[v + 1] += start[v];
+        }
         std::vector<int> other(start.back());
         std::vector<int> fill(start.begin(), start.end() - 1);
-        for (const auto &f : sorted) {
-            other[fill[f[0]]++] = f[1];
-            other[fill[f[0]]++] = f[2];
-            other[fill[f[1]]++] = f[2];
+        for (const auto &f : mesh.face) {
+            const auto [low, high] = std::minmax(f[1], f[2]);
+            other[fill[f[0]]++] = low;
+            other[fill[f[0]]++] = high;
+            other[fill[low]++] = high;
         }
-        for (std::size_t v = 0; v + 1 < start.size(); ++v) {
-            std::sort(other.begin() + start[v], other.begin() + start[v + 1]);
-            for (int k = start[v]; k < start[v + 1];) {
-                int end = k;
-                while (end < start[v + 1] && other[end] == other[k])
-                    ++end;
-                defects.nonManifoldEdges += end - k > 2;
-                k = end;
+        std::vector<std::array<int, 2>> found(Chunks::Count(static_cast<int>(vertices)), {0, 0});
+        Chunks::For(workers, static_cast<int>(vertices), [&](int first, int last, int chunk) {
+            std::vector<std::pair<int, int>> opposite;
+            for (int v = first; v < last; ++v) {
+                found[chunk][0] += CountRepeatedFaces(startFace[v], startFace[v + 1], opposite);
+                std::sort(other.begin() + start[v], other.begin() + start[v + 1]);
+                found[chunk][1] += CountRunsOverTwo(other, start[v], start[v + 1]);
             }
+        });
+        for (const auto &[duplicates, edges] : found) {
+            defects.duplicateFaces += duplicates;
+            defects.nonManifoldEdges += edges;
         }
         if (defects.nonManifoldEdges > 0)
             return Refuse(Counted(defects.nonManifoldEdges, "edge has", "edges have") + " more than two faces");
@@ -209,32 +218,63 @@ private:
         return true;
     }
 
-    bool CheckVertices()
+    // Of faces [first, last), which share their lowest vertex; `opposite` is scratch.
+    int CountRepeatedFaces(int first, int last, std::vector<std::pair<int, int>> &opposite) const
     {
-        Triangulation tables;
-        tables.Build(static_cast<int>(mesh.position.size()), mesh.face);
+        opposite.clear();
+        for (int t = first; t < last; ++t)
+            opposite.push_back(std::minmax(mesh.face[t][1], mesh.face[t][2]));
+        std::sort(opposite.begin(), opposite.end());
+        int count = 0;
+        for (std::size_t k = 1; k < opposite.size(); ++k)
+            count += opposite[k] == opposite[k - 1];
+        return count;
+    }
+
+    // Runs of more than two equal numbers in sorted[first, last).
+    static int CountRunsOverTwo(const std::vector<int> &sorted, int first, int last)
+    {
+        int count = 0;
+        for (int k = first; k < last;) {
+            int end = k;
+            while (end < last && sorted[end] == sorted[k])
+                ++end;
+            count += end - k > 2;
+            k = end;
+        }
+        return count;
+    }
+
+    bool CheckVertices(Workers &workers)
+    {
+        const int vertices = static_cast<int>(mesh.position.size());
+        tables.Build(vertices, mesh.face);
         std::vector<int> corners(mesh.position.size(), 0);
         for (const auto &f : mesh.face)
             for (const int v : f)
                 ++corners[v];
-        Star star;
-        for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-            tables.GatherStar(static_cast<int>(v), star);
-            defects.nonManifoldVertices += star.Triangles() != corners[v];
-        }
+        std::vector<int> found(Chunks::Count(vertices), 0);
+        Chunks::For(workers, vertices, [&](int first, int last, int chunk) {
+            Star star;
+            for (int v = first; v < last; ++v) {
+                tables.GatherStar(v, star);
+                found[chunk] += star.Triangles() != corners[v];
+            }
+        });
+        defects.nonManifoldVertices = std::accumulate(found.begin(), found.end(), 0);
         if (defects.nonManifoldVertices > 0)
             return Refuse(Counted(defects.nonManifoldVertices, "vertex joins", "vertices join") +
                           " several sheets (its faces form more than one fan)");
-        Orient(tables);
-        tables.Build(static_cast<int>(mesh.position.size()), mesh.face);
+        if (Orient())
+            tables.Build(vertices, mesh.face);
         const Verification proof = VerifyTriangulation(tables);
         topology = proof.counts;
         return proof.fault.empty() || Refuse(proof.fault);
     }
 
     // Turns faces so that each component is coherent with its first face; across the seams of a
-    // one-sided surface neighbours stay as they are.
-    void Orient(const Triangulation &tables)
+    // one-sided surface neighbours stay as they are. Whether any face was turned.
+    bool Orient()
     {
         std::vector<signed char> turn(mesh.face.size(), 0);
         std::vector<int> queue;
@@ -253,14 +293,18 @@ private:
                     queue.push_back(SideTriangle(mate));
                 }
         }
-        for (std::size_t t = 0; t < mesh.face.size(); ++t)
-            if (turn[t] < 0) {
-                std::swap(mesh.face[t][1], mesh.face[t][2]);
-                if (!mesh.marked.empty()) {
-                    const unsigned b = mesh.marked[t];
-                    mesh.marked[t] = static_cast<std::uint8_t>((b & 1U) | (b & 2U) << 1 | (b & 4U) >> 1);
-                }
+        bool any = false;
+        for (std::size_t t = 0; t < mesh.face.size(); ++t) {
+            if (turn[t] > 0)
+                continue;
+            any = true;
+            std::swap(mesh.face[t][1], mesh.face[t][2]);
+            if (!mesh.marked.empty()) {
+                const unsigned b = mesh.marked[t];
+                mesh.marked[t] = static_cast<std::uint8_t>((b & 1U) | (b & 2U) << 1 | (b & 4U) >> 1);
             }
+        }
+        return any;
     }
 
     void CheckArea()

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
 namespace vcg {
@@ -22,35 +23,26 @@ public:
 
     void Run()
     {
+        Workers alone(1);
+        Run(alone);
+    }
+    void Run(Workers &workers)
+    {
         const Triangulation &m = _remesh.mesh;
         std::vector<std::array<int, 3>> middle(m.triangle.size());
+        std::vector<Side> split;
         for (int t = 0; t < m.TriangleCount(); ++t)
             for (int e = 0; e < 3; ++e) {
                 const Side s = MakeSide(t, e), mate = m.Mate(s);
-                if (mate != NoSide && mate < s)
+                if (mate != NoSide && mate < s) {
                     middle[t][e] = middle[SideTriangle(mate)][SideEdge(mate)];
-                else
-                    middle[t][e] = AddMiddle(s);
+                } else {
+                    middle[t][e] = _remesh.VertexCount() + static_cast<int>(split.size());
+                    split.push_back(s);
+                }
             }
-        std::vector<std::array<int, 3>> face;
-        std::vector<std::uint8_t> constrained;
-        face.reserve(4 * middle.size());
-        constrained.reserve(4 * middle.size());
-        for (std::size_t t = 0; t < middle.size(); ++t) {
-            const Triangle &T = m.triangle[t];
-            for (int k = 0; k < 3; ++k) {
-                face.push_back({T.v[k], middle[t][Prev(k)], middle[t][Next(k)]});
-                constrained.push_back(
-                    static_cast<std::uint8_t>((T.Constrained(Next(k)) ? 2U : 0U) | (T.Constrained(Prev(k)) ? 4U : 0U)));
-            }
-            face.push_back(middle[t]);
-            constrained.push_back(0);
-        }
-        Triangulation fine;
-        fine.Build(_remesh.VertexCount(), face);
-        for (std::size_t t = 0; t < face.size(); ++t)
-            fine.triangle[t].constrained = constrained[t];
-        _remesh.mesh = std::move(fine);
+        AddMiddles(split, workers);
+        _remesh.mesh = Quartered(middle, workers);
     }
 
     /// Adds vertices in the middle of the longest edges that are no features.
@@ -73,8 +65,9 @@ public:
                 }
             if (longest == NoSide)
                 return;
-            const int v = AddMiddle(longest);
-            _remesh.mesh.SplitEdge(longest, v);
+            Workers alone(1);
+            AddMiddles({longest}, alone);
+            _remesh.mesh.SplitEdge(longest, _remesh.VertexCount() - 1);
         }
     }
 
@@ -100,25 +93,79 @@ private:
     const Model &_model;
     Remesh &_remesh;
 
-    int AddMiddle(Side s)
+    // Puts vertex i of the new ones into the middle of split[i].
+    void AddMiddles(const std::vector<Side> &split, Workers &workers)
     {
-        const int a = _remesh.mesh.Tail(s), b = _remesh.mesh.Head(s), v = _remesh.VertexCount();
-        if (_remesh.mesh.Constrained(s))
-            AddOnCurve(a, b);
-        else
-            AddOnSurface(s, (_remesh.position[a] + _remesh.position[b]) / 2);
-        return v;
+        const std::size_t before = _remesh.position.size(), after = before + split.size();
+        _remesh.position.resize(after);
+        _remesh.place.resize(after);
+        _remesh.rho.resize(after);
+        Chunks::For(workers, static_cast<int>(split.size()), [&](int first, int last, int) {
+            for (int i = first; i < last; ++i)
+                PutInMiddle(before + i, split[i]);
+        });
     }
 
-    void AddOnSurface(Side s, const Point &p)
+    void PutInMiddle(std::size_t v, Side s)
+    {
+        const int a = _remesh.mesh.Tail(s), b = _remesh.mesh.Head(s);
+        if (_remesh.mesh.Constrained(s))
+            PutOnCurve(v, a, b);
+        else
+            PutOnSurface(v, s, (_remesh.position[a] + _remesh.position[b]) / 2);
+    }
+
+    // Triangle t becomes 4 t + k at its corners k, and 4 t + 3 between the middles of its sides.
+    Triangulation Quartered(const std::vector<std::array<int, 3>> &middle, Workers &workers) const
+    {
+        const Triangulation &m = _remesh.mesh;
+        Triangulation fine;
+        fine.triangle.resize(4 * m.triangle.size());
+        fine.incident.resize(_remesh.position.size());
+        Chunks::For(workers, m.TriangleCount(), [&](int first, int last, int) {
+            for (int t = first; t < last; ++t) {
+                const Triangle &T = m.triangle[t];
+                Triangle &inner = fine.triangle[4 * t + 3];
+                for (int k = 0; k < 3; ++k) {
+                    Triangle &corner = fine.triangle[4 * t + k];
+                    corner.v[0] = T.v[k];
+                    corner.v[1] = middle[t][Prev(k)];
+                    corner.v[2] = middle[t][Next(k)];
+                    corner.n[0] = MakeSide(4 * t + 3, k);
+                    corner.n[1] = HalfAcross(MakeSide(t, Next(k)), T.v[k]);
+                    corner.n[2] = HalfAcross(MakeSide(t, Prev(k)), T.v[k]);
+                    corner.SetConstrained(1, T.Constrained(Next(k)));
+                    corner.SetConstrained(2, T.Constrained(Prev(k)));
+                    inner.v[k] = middle[t][k];
+                    inner.n[k] = MakeSide(4 * t + k, 0);
+                }
+            }
+        });
+        for (int t = 0; t < fine.TriangleCount(); ++t)
+            for (const int v : fine.triangle[t].v)
+                fine.incident[v] = t;
+        return fine;
+    }
+
+    // Beyond side s: the side of a quarter that is the half of s at its end v.
+    Side HalfAcross(Side s, int v) const
+    {
+        const Side mate = _remesh.mesh.Mate(s);
+        if (mate == NoSide)
+            return NoSide;
+        const int u = SideTriangle(mate), k = _remesh.mesh.triangle[u].IndexOf(v);
+        return MakeSide(4 * u + k, SideEdge(mate) == Next(k) ? 1 : 2);
+    }
+
+    void PutOnSurface(std::size_t v, Side s, const Point &p)
     {
         // A vertex of a curve is known by a face on one side of it: the faces of all vertices around are tried.
         const Triangulation &m = _remesh.mesh;
         const ReferenceSurface &surface = _model.surface;
         Foot best;
         int face = -1;
-        const auto from = [&](int v) {
-            const auto [f, foot] = surface.Project(_remesh.place[v].face, _remesh.position[v], p);
+        const auto from = [&](int w) {
+            const auto [f, foot] = surface.Project(_remesh.place[w].face, _remesh.position[w], p);
             if (face < 0 || foot.squaredDistance < best.squaredDistance) {
                 face = f;
                 best = foot;
@@ -130,17 +177,17 @@ private:
         if (_remesh.place[b].kind == VertexKind::Free)
             from(b);
         if (face < 0)
-            for (const int v : {a, b, m.Opposite(s), m.Opposite(m.Mate(s))})
-                from(v);
+            for (const int w : {a, b, m.Opposite(s), m.Opposite(m.Mate(s))})
+                from(w);
         Place place;
         place.face = face;
         const Triangle &T = surface.mesh.triangle[face];
         double rho = 0;
         for (int k = 0; k < 3; ++k)
             rho += best.weight[k] * _model.density.rho[T.v[k]];
-        _remesh.position.push_back(best.point);
-        _remesh.place.push_back(place);
-        _remesh.rho.push_back(rho);
+        _remesh.position[v] = best.point;
+        _remesh.place[v] = place;
+        _remesh.rho[v] = rho;
     }
 
     // The shortest curve with these ends; curves that share both have a vertex between them.
@@ -160,7 +207,7 @@ private:
         return found;
     }
 
-    void AddOnCurve(int a, int b)
+    void PutOnCurve(std::size_t v, int a, int b)
     {
         if (_remesh.place[a].kind != VertexKind::Curve)
             std::swap(a, b);
@@ -198,9 +245,9 @@ private:
         const int from = c.vertex[place.segment], to = c.vertex[place.segment + 1];
         const std::vector<Point> &x = _model.surface.position;
         const std::vector<double> &rho = _model.density.rho;
-        _remesh.position.push_back(x[from] + (x[to] - x[from]) * t);
-        _remesh.place.push_back(place);
-        _remesh.rho.push_back((1 - t) * rho[from] + t * rho[to]);
+        _remesh.position[v] = x[from] + (x[to] - x[from]) * t;
+        _remesh.place[v] = place;
+        _remesh.rho[v] = (1 - t) * rho[from] + t * rho[to];
     }
 };
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
 namespace vcg {
@@ -18,7 +20,8 @@ struct ResultCheck {
     int foldedEdges = 0; ///< edges whose faces turn by more than 150 degrees
     std::string fault;   ///< the first thing found wrong; empty when all is well
 
-    ResultCheck(const Model &model, const Remesh &remesh)
+    ResultCheck(const Model &model, const Remesh &remesh) : ResultCheck(model, remesh, *std::make_unique<Workers>(1)) {}
+    ResultCheck(const Model &model, const Remesh &remesh, Workers &workers)
     {
         const Verification v = VerifyTriangulation(remesh.mesh);
         topology = v.counts;
@@ -28,13 +31,13 @@ struct ResultCheck {
         for (const Point &p : remesh.position)
             if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
                 fault = "a vertex is not finite";
-        CheckFolds(model, remesh);
+        CheckFolds(model, remesh, workers);
     }
 
 private:
     // A fold is right only where the input itself turns that sharply within two lengths of the edges
     // around it: at a knife edge, or on a part that is thinner than the spacing.
-    void CheckFolds(const Model &model, const Remesh &remesh)
+    void CheckFolds(const Model &model, const Remesh &remesh, Workers &workers)
     {
         struct Fold {
             Point middle;
@@ -42,22 +45,36 @@ private:
         };
         std::vector<Fold> folds;
         const Triangulation &m = remesh.mesh;
-        for (int t = 0; t < m.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (m.Mate(s) < s || !(Turn(m, remesh.position, s) > FoldTurn))
-                    continue;
-                ++foldedEdges;
-                const Point &p = remesh.position[m.Tail(s)], &q = remesh.position[m.Head(s)];
-                if (!m.Constrained(s))
-                    folds.push_back({(p + q) / 2, 2 * std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
-                                                                Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
-            }
+        for (const Side s : FoldedEdges(remesh, workers)) {
+            ++foldedEdges;
+            const Point &p = remesh.position[m.Tail(s)], &q = remesh.position[m.Head(s)];
+            if (!m.Constrained(s))
+                folds.push_back({(p + q) / 2, 2 * std::max({Norm(q - p), Norm(remesh.position[m.Opposite(s)] - p),
+                                                            Norm(remesh.position[m.Opposite(m.Mate(s))] - p)})});
+        }
         int unfounded = 0;
         for (const Fold &f : folds)
             unfounded += !BendsNear(model, f.middle, f.reach);
         if (unfounded > 0)
             fault = std::to_string(unfounded) + " edges are folded where the input is not";
+    }
+
+    static std::vector<Side> FoldedEdges(const Remesh &remesh, Workers &workers)
+    {
+        const Triangulation &m = remesh.mesh;
+        std::vector<std::vector<Side>> found(Chunks::Count(m.TriangleCount()));
+        Chunks::For(workers, m.TriangleCount(), [&](int first, int last, int chunk) {
+            for (int t = first; t < last; ++t)
+                for (int e = 0; e < 3; ++e) {
+                    const Side s = MakeSide(t, e);
+                    if (m.Mate(s) >= s && Turn(m, remesh.position, s) > FoldTurn)
+                        found[chunk].push_back(s);
+                }
+        });
+        std::vector<Side> all;
+        for (const std::vector<Side> &sides : found)
+            all.insert(all.end(), sides.begin(), sides.end());
+        return all;
     }
 
     // Whether the input's normals within `reach` of p differ by more than 75 degrees.

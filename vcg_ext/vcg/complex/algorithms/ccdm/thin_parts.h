@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/parameters.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
 namespace vcg {
@@ -26,32 +29,53 @@ public:
     /// Number `i` is at point[i] and has spacing[i] > 0.
     SpacedPoints(const std::vector<Point> &point, const std::vector<double> &spacing)
     {
-        std::vector<std::pair<std::uint64_t, int>> keyed(point.size());
+        // Neighbours in the list are often neighbours in space: what is sorted is runs in one cell.
+        std::vector<Run> runs;
         for (std::size_t i = 0; i < point.size(); ++i) {
             const int level = LevelOf(spacing[i]);
             const double size = std::ldexp(1.0, level);
-            keyed[i] = {Key(level, Cell(point[i][0], size), Cell(point[i][1], size), Cell(point[i][2], size)),
-                        static_cast<int>(i)};
+            const Point &p = point[i];
+            const std::uint64_t key = Key(level, Cell(p[0], size), Cell(p[1], size), Cell(p[2], size));
+            if (runs.empty() || runs.back().key != key)
+                runs.push_back({key, static_cast<int>(i), 0});
+            ++runs.back().count;
             if (std::find(_level.begin(), _level.end(), level) == _level.end())
                 _level.push_back(level);
         }
         std::sort(_level.begin(), _level.end());
-        std::sort(keyed.begin(), keyed.end());
-        std::size_t places = 16;
-        while (places < 2 * keyed.size())
-            places *= 2;
-        _slot.assign(places, {0, -1});
-        _item.resize(keyed.size());
-        for (std::size_t k = 0; k < keyed.size(); ++k) {
-            _item[k] = keyed[k];
-            if (k == 0 || keyed[k].first != keyed[k - 1].first)
-                Slot(keyed[k].first) = {keyed[k].first, static_cast<int>(k)};
+        std::sort(runs.begin(), runs.end(),
+                  [](const Run &a, const Run &b) { return a.key != b.key ? a.key < b.key : a.first < b.first; });
+        _item.reserve(point.size());
+        std::vector<Run> cells;
+        for (const Run &r : runs) {
+            if (cells.empty() || cells.back().key != r.key)
+                cells.push_back({r.key, static_cast<int>(_item.size()), 0});
+            cells.back().count += r.count;
+            for (int i = r.first; i < r.first + r.count; ++i)
+                _item.push_back(i);
         }
+        std::size_t places = 16;
+        while (places < 2 * cells.size())
+            places *= 2;
+        _slot.assign(places, {0, -1, 0});
+        for (const Run &c : cells)
+            _slot[Slot(c.key)] = c;
     }
 
-    /// Calls visit(i) for the points that may lie within `reach` of p, of spacings from about `reach` upwards.
+    /// Cells that hold points are numbered from 0 to below this, with gaps.
+    int CellCount() const { return static_cast<int>(_slot.size()); }
+    /// Calls visit(i) for the points of a cell.
     template <class Visit>
-    void VisitNear(const Point &p, double reach, const Visit &visit) const
+    void VisitCell(int cell, const Visit &visit) const
+    {
+        for (int k = _slot[cell].first; k < _slot[cell].first + _slot[cell].count; ++k)
+            visit(_item[k]);
+    }
+
+    /// Calls visit(cell) for the cells of points that may lie within `reach` of p, of spacings from about `reach`
+    /// upwards.
+    template <class Visit>
+    void VisitCellsNear(const Point &p, double reach, const Visit &visit) const
     {
         for (const int level : _level) {
             const double size = std::ldexp(1.0, level);
@@ -64,19 +88,30 @@ public:
             }
             for (std::int64_t x = low[0]; x <= high[0]; ++x)
                 for (std::int64_t y = low[1]; y <= high[1]; ++y)
-                    for (std::int64_t z = low[2]; z <= high[2]; ++z)
-                        VisitCell(Key(level, x, y, z), visit);
+                    for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+                        const std::size_t at = Slot(Key(level, x, y, z));
+                        if (_slot[at].count > 0)
+                            visit(static_cast<int>(at));
+                    }
         }
     }
 
+    /// Calls visit(i) for those points.
+    template <class Visit>
+    void VisitNear(const Point &p, double reach, const Visit &visit) const
+    {
+        VisitCellsNear(p, reach, [&](int cell) { VisitCell(cell, visit); });
+    }
+
 private:
-    struct Entry {
+    struct Run {
         std::uint64_t key;
         int first; // -1: free
+        int count;
     };
     std::vector<int> _level;
-    std::vector<std::pair<std::uint64_t, int>> _item; // by cell
-    std::vector<Entry> _slot;                         // cells, hashed
+    std::vector<int> _item; // by cell
+    std::vector<Run> _slot; // cells, hashed
 
     static int LevelOf(double spacing) { return static_cast<int>(std::ceil(std::log2(std::max(spacing, 1e-12)))); }
     static std::int64_t Cell(double x, double size) { return static_cast<std::int64_t>(std::floor(x / size)); }
@@ -90,23 +125,13 @@ private:
         }
         return h;
     }
-    Entry &Slot(std::uint64_t key)
+    // Where a cell is, or would be.
+    std::size_t Slot(std::uint64_t key) const
     {
         std::size_t k = key & (_slot.size() - 1);
         while (_slot[k].first >= 0 && _slot[k].key != key)
             k = (k + 1) & (_slot.size() - 1);
-        return _slot[k];
-    }
-    template <class Visit>
-    void VisitCell(std::uint64_t key, const Visit &visit) const
-    {
-        std::size_t k = key & (_slot.size() - 1);
-        while (_slot[k].first >= 0 && _slot[k].key != key)
-            k = (k + 1) & (_slot.size() - 1);
-        if (_slot[k].first < 0)
-            return;
-        for (std::size_t i = _slot[k].first; i < _item.size() && _item[i].first == key; ++i)
-            visit(_item[i].second);
+        return k;
     }
 };
 
@@ -120,27 +145,29 @@ public:
     /// one edge across and two of the spacing make an angle under 40 degrees.
     static constexpr double NarrowShare = 0.7;
 
-    explicit ThinParts(const Model &model)
-        : _model(model), _surface(model.surface), _mesh(model.surface.mesh), _sample(LaySamples(model)),
-          _grid(Points(_sample), Spacings(_sample))
+    ThinParts(const Model &model, Workers &workers)
+        : _model(model), _surface(model.surface), _mesh(model.surface.mesh), _sample(LaySamples(model, workers)),
+          _grid(Points(_sample), Spacings(_sample)), _normals(BoundNormals(workers)),
+          _flooding(static_cast<std::size_t>(workers.Count()))
     {
     }
+    explicit ThinParts(const Model &model) : ThinParts(model, *std::make_unique<Workers>(1)) {}
 
-    /// The narrow places, the narrowest in units of the spacing first; one entry for each connected part.
-    std::vector<NarrowPlace> Find()
+    /// The narrow places, the narrowest in units of the spacing first; one entry for each connected part. With no
+    /// more workers than the constructor was given.
+    std::vector<NarrowPlace> Find(Workers &workers)
     {
-        std::vector<NarrowPlace> found;
-        // Every other sample is asked, all answer.
-        for (std::size_t i = 0; i < _sample.size(); i += 2) {
-            const Sample &s = _sample[i];
-            if (const auto width = ThicknessAt(s.face, s.point, s.spacing, NarrowShare))
-                found.push_back(Place(NarrowKind::ThinPart, s.point, *width, s.spacing));
-        }
-        std::vector<NarrowPlace> places = OnePerPart(found);
+        std::vector<NarrowPlace> places = OnePerPart(ThinSamples(workers));
         const std::vector<NarrowPlace> features = OnePerPart(CloseFeatures());
         places.insert(places.end(), features.begin(), features.end());
         std::stable_sort(places.begin(), places.end(), Narrower);
         return places;
+    }
+
+    std::vector<NarrowPlace> Find()
+    {
+        Workers alone(1);
+        return Find(alone);
     }
 
     /// Thickness of the surface at a point of a face, if it is less than `share` spacings: another sheet lies
@@ -148,35 +175,14 @@ public:
     /// that has no inside has none.
     std::optional<double> ThicknessAt(int face, const Point &p, double spacing, double share)
     {
-        const Point n = Normalized(_surface.AreaVector(face));
-        if (!(SquaredNorm(n) > 0))
-            return {};
-        int other = -1;
-        double width = 0, nearest = spacing * spacing;
-        _grid.VisitNear(p, spacing, [&](int i) {
-            const Sample &s = _sample[i];
-            const Point d = s.point - p;
-            const double away = SquaredNorm(d);
-            if (away >= nearest || s.face == face || Dot(n, s.normal) > Opposed)
-                return;
-            const double ahead = Dot(d, n), behind = Dot(d, s.normal);
-            const double gap = std::max(std::abs(ahead), std::abs(behind));
-            if (gap >= share * spacing || Outside(face, ahead) || Outside(s.face, -behind))
-                return;
-            nearest = away;
-            other = i;
-            width = gap;
-        });
-        if (other < 0 || !Apart(face, _sample[other].face, p, spacing))
-            return {};
-        return width;
+        return ThicknessAt(face, p, spacing, share, _flooding.front());
     }
 
     /// Unit normal averaged over the surface within `reach` of a point of a face, without crossing a feature.
     Point MeanNormal(int face, const Point &p, double reach)
     {
         Point sum(0, 0, 0);
-        Flood(face, p, reach, false, [&](int t) {
+        Flood(face, p, reach, false, _flooding.front(), [&](int t) {
             const Point n = _surface.AreaVector(t);
             const double size = Norm(n), most = reach * reach;
             sum += n * (size > most ? most / size : 1);
@@ -196,14 +202,20 @@ private:
         double spacing, s;
         int curve, segment;
     };
+    // Scratch of a worker.
+    struct Flooding {
+        std::vector<int> stamp, queue; // stamp: of the faces that were seen
+        int tick = 0;
+    };
 
     const Model &_model;
     const ReferenceSurface &_surface;
     const Triangulation &_mesh;
     const std::vector<Sample> _sample;
     const SpacedPoints _grid;
-    std::vector<int> _stamp; // faces seen by a flood
-    int _tick = 0;
+    const std::vector<Bounds> _normals; // of the samples of each cell
+    std::vector<Flooding> _flooding;
+    std::once_flag _outwardKnown;
     std::vector<signed char> _outward; // 1: the face's normal points outwards, -1: inwards, 0: there is no outside
 
     static constexpr double Opposed = -0.7;
@@ -212,6 +224,74 @@ private:
     static constexpr double BentRound = 0.4;
     static constexpr int MostFaces = 5000; // of a flood
     static constexpr double CornerReach = 2;
+
+    std::vector<NarrowPlace> ThinSamples(Workers &workers)
+    {
+        // Every other sample is asked, all answer.
+        const int asked = (static_cast<int>(_sample.size()) + 1) / 2;
+        std::vector<std::vector<NarrowPlace>> found(Chunks::Count(asked));
+        workers.For(Chunks::Count(asked), [&](int chunk, int worker) {
+            for (int i = chunk * Chunks::Size; i < std::min(asked, (chunk + 1) * Chunks::Size); ++i) {
+                const Sample &s = _sample[2 * static_cast<std::size_t>(i)];
+                if (const auto width = ThicknessAt(s.face, s.point, s.spacing, NarrowShare, _flooding[worker]))
+                    found[chunk].push_back(Place(NarrowKind::ThinPart, s.point, *width, s.spacing));
+            }
+        });
+        std::vector<NarrowPlace> all;
+        for (const std::vector<NarrowPlace> &places : found)
+            all.insert(all.end(), places.begin(), places.end());
+        return all;
+    }
+
+    std::vector<Bounds> BoundNormals(Workers &workers) const
+    {
+        std::vector<Bounds> normals(_grid.CellCount());
+        Chunks::For(workers, _grid.CellCount(), [&](int first, int last, int) {
+            for (int c = first; c < last; ++c)
+                _grid.VisitCell(c, [&](int i) { normals[c].Add(_sample[i].normal); });
+        });
+        return normals;
+    }
+
+    // Whether a cell may have a normal that is opposed to n.
+    bool MayOppose(int cell, const Point &n) const
+    {
+        const Bounds &b = _normals[cell];
+        double least = 0;
+        for (int k = 0; k < 3; ++k)
+            least += std::min(n[k] * b.low[k], n[k] * b.high[k]);
+        return least <= Opposed + 1e-9;
+    }
+
+    std::optional<double> ThicknessAt(int face, const Point &p, double spacing, double share, Flooding &flooding)
+    {
+        const Point n = Normalized(_surface.AreaVector(face));
+        if (!(SquaredNorm(n) > 0))
+            return {};
+        int other = -1;
+        double width = 0, nearest = spacing * spacing;
+        const auto look = [&](int i) {
+            const Sample &s = _sample[i];
+            const Point d = s.point - p;
+            const double away = SquaredNorm(d);
+            if (away >= nearest || s.face == face || Dot(n, s.normal) > Opposed)
+                return;
+            const double ahead = Dot(d, n), behind = Dot(d, s.normal);
+            const double gap = std::max(std::abs(ahead), std::abs(behind));
+            if (gap >= share * spacing || Outside(face, ahead) || Outside(s.face, -behind))
+                return;
+            nearest = away;
+            other = i;
+            width = gap;
+        };
+        _grid.VisitCellsNear(p, spacing, [&](int cell) {
+            if (MayOppose(cell, n))
+                _grid.VisitCell(cell, look);
+        });
+        if (other < 0 || !Apart(face, _sample[other].face, p, spacing, flooding))
+            return {};
+        return width;
+    }
 
     template <class Item>
     static std::vector<Point> Points(const std::vector<Item> &items)
@@ -233,7 +313,7 @@ private:
     }
 
     // In equal strides of the area in units of the squared spacing, at random places of their faces.
-    static std::vector<Sample> LaySamples(const Model &model)
+    static std::vector<Sample> LaySamples(const Model &model, Workers &workers)
     {
         const ReferenceSurface &surface = model.surface;
         const std::vector<double> &h = model.density.spacing;
@@ -246,20 +326,27 @@ private:
             measure[t] = total;
         }
         const int count = static_cast<int>(std::clamp(SamplesPerSquare * total, 1.0, static_cast<double>(MostSamples)));
-        std::vector<Sample> samples;
-        samples.reserve(count);
+        std::vector<Sample> samples(count);
         Random random(1);
-        int t = 0;
+        int face = 0;
         for (int i = 0; i < count; ++i) {
             const double want = total * (i + 0.5) / count;
-            while (t + 1 < surface.FaceCount() && measure[t] < want)
-                ++t;
-            const double r = std::sqrt(random.Unit()), w = random.Unit();
-            const SurfacePoint p = {t, {1 - r, r * (1 - w), r * w}};
-            const Point normal = Normalized(surface.AreaVector(t));
-            if (SquaredNorm(normal) > 0)
-                samples.push_back({surface.At(p), normal, surface.Interpolate(p, h), t});
+            while (face + 1 < surface.FaceCount() && measure[face] < want)
+                ++face;
+            samples[i].face = face;
+            samples[i].point[0] = random.Unit();
+            samples[i].point[1] = random.Unit();
         }
+        Chunks::For(workers, count, [&](int first, int last, int) {
+            for (int i = first; i < last; ++i) {
+                const int t = samples[i].face;
+                const double r = std::sqrt(samples[i].point[0]), w = samples[i].point[1];
+                const SurfacePoint p = {t, {1 - r, r * (1 - w), r * w}};
+                samples[i] = {surface.At(p), Normalized(surface.AreaVector(t)), surface.Interpolate(p, h), t};
+            }
+        });
+        const auto flat = [](const Sample &s) { return !(SquaredNorm(s.normal) > 0); };
+        samples.erase(std::remove_if(samples.begin(), samples.end(), flat), samples.end());
         return samples;
     }
 
@@ -274,22 +361,24 @@ private:
 
     // Calls visit(face) for the faces that are connected with `from` within `reach` of p until it returns false.
     template <class Visit>
-    void Flood(int from, const Point &p, double reach, bool acrossFeatures, const Visit &visit)
+    void Flood(int from, const Point &p, double reach, bool acrossFeatures, Flooding &flooding,
+               const Visit &visit) const
     {
-        if (_stamp.empty())
-            _stamp.assign(_surface.FaceCount(), 0);
-        ++_tick;
-        std::vector<int> queue(1, from);
-        _stamp[from] = _tick;
+        auto &[stamp, queue, tick] = flooding;
+        if (stamp.empty())
+            stamp.assign(_surface.FaceCount(), 0);
+        ++tick;
+        queue.assign(1, from);
+        stamp[from] = tick;
         for (std::size_t k = 0; k < queue.size() && k < MostFaces; ++k) {
             if (!visit(queue[k]))
                 return;
             const Triangle &T = _mesh.triangle[queue[k]];
             for (int e = 0; e < 3; ++e) {
                 const Side link = T.n[e];
-                if (link == NoSide || (T.Constrained(e) && !acrossFeatures) || _stamp[SideTriangle(link)] == _tick)
+                if (link == NoSide || (T.Constrained(e) && !acrossFeatures) || stamp[SideTriangle(link)] == tick)
                     continue;
-                _stamp[SideTriangle(link)] = _tick;
+                stamp[SideTriangle(link)] = tick;
                 if (_surface.NearestOn(SideTriangle(link), p).squaredDistance <= reach * reach)
                     queue.push_back(SideTriangle(link));
             }
@@ -298,12 +387,12 @@ private:
 
     // Whether two opposed faces belong to different sheets, or to one that bends round within the spacing. Where
     // the way between them is short but crosses a feature, they are the sides of a rim or a wedge.
-    bool Apart(int a, int b, const Point &p, double spacing)
+    bool Apart(int a, int b, const Point &p, double spacing, Flooding &flooding) const
     {
         bool met = false;
         Point sum(0, 0, 0);
         double area = 0;
-        Flood(a, p, spacing, false, [&](int t) {
+        Flood(a, p, spacing, false, flooding, [&](int t) {
             const Point n = _surface.AreaVector(t);
             const double size = Norm(n), most = spacing * spacing;
             // Large faces do not lie in the ball.
@@ -315,7 +404,7 @@ private:
         });
         if (met)
             return Norm(sum) < BentRound * area;
-        Flood(a, p, 1.5 * spacing, true, [&](int t) {
+        Flood(a, p, 1.5 * spacing, true, flooding, [&](int t) {
             met = t == b;
             return !met;
         });
@@ -325,8 +414,7 @@ private:
     // Whether what lies `ahead` of a face, along its normal, is outside; what has no inside is all outside.
     bool Outside(int face, double ahead)
     {
-        if (_outward.empty())
-            FindOutside();
+        std::call_once(_outwardKnown, [this] { FindOutside(); });
         return _outward[face] == 0 || ahead * _outward[face] > 0;
     }
 
@@ -482,7 +570,8 @@ private:
         for (const Side s : {from, _mesh.Mate(from)}) {
             if (s == NoSide || met)
                 continue;
-            Flood(SideTriangle(s), (a.point + foot) / 2, 0.75 * distance, false, [&](int t) {
+            const Point middle = (a.point + foot) / 2;
+            Flood(SideTriangle(s), middle, 0.75 * distance, false, _flooding.front(), [&](int t) {
                 met = t == SideTriangle(to) || (_mesh.Mate(to) != NoSide && t == SideTriangle(_mesh.Mate(to)));
                 return !met;
             });
