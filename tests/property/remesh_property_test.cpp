@@ -36,6 +36,7 @@ const std::vector<Case> &Cases()
         {"high_genus", shapes::HighGenus(2), 180, 49},
         {"cad_part", shapes::CadPart(), 40, 49},
         {"box", shapes::Box(1, 2, 3), 40, 50},
+        {"thin_box", shapes::Box(1, 1, 0.05), 40, 50},
         {"twisted_bar", shapes::TwistedBar(80, 3), 60, 50},
         {"plate", shapes::Plate(40), 60, 50},
         {"bust", shapes::Bust(4, 0.02), 180, 50},
@@ -114,9 +115,25 @@ std::string NameOf(const testing::TestParamInfo<EverySurface::ParamType> &info)
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, EverySurface,
-                         testing::Combine(testing::Range<std::size_t>(0, 12), testing::Values(30, 400, 2500),
-                                          testing::Values(1U, 2U)),
+                         testing::Combine(testing::Range<std::size_t>(0, Cases().size()),
+                                          testing::Values(30, 400, 2500), testing::Values(1U, 2U)),
                          NameOf);
+
+TEST(Targets, ManyHolesTakeNoMoreVerticesThanAsked)
+{
+    // The rims alone need more vertices than a coarse level has.
+    const shapes::Shape s = shapes::Grid(
+        31, 31, [](int i, int j) { return i % 2 == 0 || j % 2 == 0; },
+        [](double x, double y) {
+            return shapes::P{x, y, 0};
+        });
+    Params p;
+    p.vertexCount = 4000;
+    Report report;
+    const MeshTables out = Remeshed(meshes::Tables(s), p, &report);
+    EXPECT_EQ(report.inputTopology.boundaryLoops, 226);
+    EXPECT_EQ(out.position.size(), 4000U);
+}
 
 TEST(Targets, EverySurfaceMeetsItsEdgeLength)
 {

@@ -79,7 +79,7 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     Relocator relocator(model, r);
     // Half a spacing off the tip.
     relocator.Sweep([&](const LocalStar &star, int v) {
-        return v == tip ? Relocator::TangentStep(star, 0.3) * (0.45 * star.radius) : Point(0, 0, 0);
+        return v == tip ? Relocator::TangentStep(star, 0.43 * star.radius, 0.13 * star.radius) : Point(0, 0, 0);
     });
     const double off = Norm(r.position[tip] - model.surface.position[tip]);
     ASSERT_GT(off, 0);
@@ -87,6 +87,34 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     const std::vector<int> captured = ExtremeCapture(model, r, probes).Run(5, 10);
     ASSERT_EQ(captured.size(), 1U);
     EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
+}
+
+TEST(ExtremeCapture, TakesWhatLooksFarOnlyFromTheWrongSheetForNear)
+{
+    // Every probe of a mesh that holds all vertices of the input is at distance zero, however crumpled that is.
+    const Model model = meshes::MakeModel(shapes::Bust(4, 0.5), 2562, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Probes probes(model, r, meshes::Alone());
+    const std::vector<Point> before = r.position;
+    EXPECT_TRUE(ExtremeCapture(model, r, probes).Run(5, 25).empty());
+    for (std::size_t v = 0; v < before.size(); ++v)
+        EXPECT_EQ(Norm(r.position[v] - before[v]), 0);
+}
+
+TEST(Polish, GivesUpOnWhatCannotBeHelped)
+{
+    // A wire: no mesh with so few vertices has good angles. Bounded by attempts, not by the clock: the flips and
+    // moves of a bounded polish leave most triangles as they are.
+    const Model model = meshes::MakeModel(shapes::RoundTorus(200, 6, 0.01), 100, 180);
+    Remesh r = meshes::AsRemesh(model);
+    const std::vector<Point> before = r.position;
+    Polish polish(model, r);
+    EXPECT_GT(polish.RaiseAngles(40, 0.1, 20), 1000);
+    int moved = 0;
+    for (std::size_t v = 0; v < before.size(); ++v)
+        moved += Norm(r.position[v] - before[v]) > 0;
+    EXPECT_LT(moved, r.VertexCount());
+    EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
 }
 
 TEST(Polish, ShakesWhatNoSmallMoveHelpsAndSpoilsNothing)

@@ -119,4 +119,26 @@ TEST(ReferenceSurface, InterpolatesLinearly)
     EXPECT_NEAR(s.Interpolate(p, field), 2 * x[0] - x[1] + 3, 1e-12);
 }
 
+TEST(ReferenceSurface, JoinsFacesOfOneSheetOnly)
+{
+    // Two sides of a thin plate: close in space, far apart around the rim; and its creases keep faces apart.
+    ReferenceSurface smooth = meshes::MakeModel(shapes::Extrude(shapes::FlatGrid(10), 0.02), 200, 180).surface;
+    const auto faceAt = [&](const Point &p) {
+        int best = 0;
+        for (int t = 0; t < smooth.FaceCount(); ++t)
+            if (smooth.NearestOn(t, p).squaredDistance < smooth.NearestOn(best, p).squaredDistance)
+                best = t;
+        return best;
+    };
+    const int top = faceAt(Point(0.52, 0.53, 0.02)), bottom = faceAt(Point(0.52, 0.53, 0)),
+              beside = faceAt(Point(0.72, 0.53, 0.02));
+    ASSERT_NE(top, bottom);
+    EXPECT_FALSE(smooth.Joined(top, bottom, Point(0.52, 0.53, 0.01), 0.2, 4096));
+    EXPECT_TRUE(smooth.Joined(top, bottom, Point(0.52, 0.53, 0.01), 1, 4096));
+    EXPECT_FALSE(smooth.Joined(top, bottom, Point(0.52, 0.53, 0.01), 1, 20)) << "only so many faces are looked at";
+    EXPECT_TRUE(smooth.Joined(top, beside, Point(0.6, 0.53, 0.02), 0.2, 4096));
+    const ReferenceSurface creased = meshes::MakeModel(shapes::Extrude(shapes::FlatGrid(10), 0.02), 200, 40).surface;
+    EXPECT_FALSE(creased.Joined(top, bottom, Point(0.52, 0.53, 0.01), 1, 4096));
+}
+
 } // namespace

@@ -57,6 +57,28 @@ TEST(SampleCurves, KeepsTheLeastThatHoldsTheTopology)
         }
 }
 
+TEST(SampleCurvesWithin, KeepsTheBudgetWhereTheCurvesCan)
+{
+    const Model model = meshes::MakeModel(shapes::FlatGrid(10), 100, 180);
+    const auto within = [&](int most) {
+        return static_cast<int>(SampleCurvesWithin(model.surface, model.features, model.density, most).size());
+    };
+    const int all = static_cast<int>(SampleCurves(model.surface, model.features, model.density).size());
+    ASSERT_GT(all, 12);
+    EXPECT_EQ(within(all), all);
+    EXPECT_EQ(within(all + 5), all);
+    EXPECT_LE(within(12), 12);
+    EXPECT_GT(within(12), 0);
+    // Sides between corners need no vertices of their own.
+    EXPECT_EQ(within(0), 0);
+    EXPECT_EQ(within(-4), 0);
+    // Closed curves need three each, whatever is asked.
+    const Model part = meshes::MakeModel(shapes::CadPart(), 500, 40);
+    const std::vector<CurveSample> least = SampleCurvesWithin(part.surface, part.features, part.density, 0);
+    EXPECT_EQ(least.size(), SampleCurves(part.surface, part.features, part.density, 1e9).size());
+    EXPECT_GT(least.size(), 0U);
+}
+
 TEST(SampleFaces, DrawsInProportionToDensityTimesArea)
 {
     Model model = meshes::MakeModel(shapes::FlatGrid(20), 1000, 180);

@@ -48,8 +48,18 @@ struct Perturbation {
     Point operator()(const LocalStar &star, int v) const
     {
         Random random(seed + static_cast<std::uint64_t>(v) * 0xd1b54a32d192ed03ULL);
-        const double u = random.Unit(), angle = 2 * Pi * random.Unit();
-        return Relocator::TangentStep(star, angle) * (lambda * star.radius * u);
+        const double u = random.Unit();
+        // A direction by a point of the unit disc: no sine, whose last bit is not the same everywhere.
+        double x = 1, y = 0, squared = 1;
+        for (int i = 0; i < 32; ++i) {
+            x = 2 * random.Unit() - 1;
+            y = 2 * random.Unit() - 1;
+            squared = x * x + y * y;
+            if (squared <= 1 && squared > 1e-6)
+                break;
+        }
+        const double size = lambda * star.radius * u / std::sqrt(squared);
+        return Relocator::TangentStep(star, size * x, size * y);
     }
 };
 

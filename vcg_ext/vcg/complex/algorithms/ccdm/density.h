@@ -46,6 +46,12 @@ inline bool StarCurvature(const ReferenceSurface &surface, int v, const Star &st
     return true;
 }
 
+/// Rounds to single precision: the last bits of what atan2 and pow return are not the same on every machine.
+inline double RoundToFloat(double x)
+{
+    return static_cast<double>(static_cast<float>(x));
+}
+
 /// phi = sqrt(|K| + H^2) at each reference vertex (paper, section 3.2). K is the angle deficit over a
 /// third of the star's area, H a quarter of the sum of turn * length over that area. Feature edges do
 /// not count as curvature: their vertices take the mean of their neighbours. The field is smoothed
@@ -100,7 +106,7 @@ inline std::vector<double> CurvatureDensity(const ReferenceSurface &surface)
     };
     const double high = percentile(0.995), low = std::max(percentile(0.02), 0.01 * high);
     for (double &x : phi)
-        x = high > 0 ? std::clamp(x, low, high) : 1.0;
+        x = high > 0 ? RoundToFloat(std::clamp(x, low, high)) : 1.0;
     return phi;
 }
 
@@ -155,6 +161,9 @@ inline void LimitGradation(const ReferenceSurface &surface, int vertices, double
     }
 }
 
+/// Weights are above 0 even where phi^gamma is too small for single precision.
+constexpr double LeastWeight = 1e-30;
+
 /// h is the edge length of the equilateral triangulation with phi_hat n vertices per unit of area,
 /// phi_hat being phi scaled to integrate to 1.
 inline DensityField MakeDensityField(const ReferenceSurface &surface, std::vector<double> phi, bool uniform,
@@ -167,7 +176,7 @@ inline DensityField MakeDensityField(const ReferenceSurface &surface, std::vecto
     d.rho.resize(d.phi.size());
     d.spacing.resize(d.phi.size());
     for (std::size_t v = 0; v < d.phi.size(); ++v) {
-        d.rho[v] = uniform ? 1.0 : std::pow(d.phi[v], exponent);
+        d.rho[v] = uniform ? 1.0 : std::max(RoundToFloat(std::pow(d.phi[v], exponent)), LeastWeight);
         d.spacing[v] = std::sqrt(2 * integral / (std::sqrt(3.0) * vertices * d.phi[v]));
     }
     return d;

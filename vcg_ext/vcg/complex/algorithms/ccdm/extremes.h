@@ -7,23 +7,25 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/probes.h>
+#include <vcg/complex/algorithms/ccdm/trial_patch.h>
 
 namespace vcg {
 namespace ccdm {
 
-/// Puts vertices of the remesh onto the tips of the input that the remesh cuts off. Relocation pays no
-/// regard to the distance between the surfaces (paper, section 4, limitations), so the distance at a
-/// few tips and ridges would otherwise be several times that of the rest.
+/// Puts vertices of the remesh onto the tips and ridges of the input that the remesh cuts off. Relocation pays no
+/// regard to the distance between the surfaces (paper, section 4, limitations), so the distance there would
+/// otherwise be several times that of the rest.
 class ExtremeCapture
 {
 public:
-    ExtremeCapture(const Model &model, Remesh &remesh, Probes &probes) : _model(model), _remesh(remesh), _probe(probes)
+    ExtremeCapture(const Model &model, Remesh &remesh, Probes &probes)
+        : _model(model), _remesh(remesh), _probe(probes), _patch(model, remesh)
     {
     }
 
     /// Finds the probes furthest from the remesh, those beyond `outlier` times the root mean square
-    /// distance, and moves the nearest free vertex onto each, if the star stays well shaped (no
-    /// angle under `minAngle` degrees that was not there) and nothing else around gets further away.
+    /// distance, and moves a free vertex onto each, with those around making room, if no angle under `minAngle`
+    /// degrees comes about that was not there, no edge gets too sharp, and nothing else around gets further away.
     /// Returns the vertices that now sit on a tip.
     std::vector<int> Run(double outlier, double minAngle)
     {
@@ -31,123 +33,137 @@ public:
         double squares = 0;
         for (int r = 0; r < _probe.Count(); ++r)
             squares += _probe.Distance(r) * _probe.Distance(r);
-        const double limit = outlier * std::sqrt(squares / std::max(_probe.Count(), 1));
+        _limit = outlier * std::sqrt(squares / std::max(_probe.Count(), 1));
         std::vector<int> worst;
         for (int r = 0; r < _probe.Count(); ++r)
-            if (_probe.Distance(r) > limit)
+            if (_probe.Distance(r) > _limit)
                 worst.push_back(r);
         std::stable_sort(worst.begin(), worst.end(),
                          [&](int a, int b) { return _probe.Distance(a) > _probe.Distance(b); });
+        _mostCosine = std::cos(minAngle * Pi / 180);
+        _settled.assign(_remesh.VertexCount(), 0);
         std::vector<int> captured;
-        std::vector<char> settled(_remesh.VertexCount(), 0);
-        const std::size_t most = static_cast<std::size_t>(_remesh.VertexCount()) / 1000 + 1;
-        for (const int r : worst)
-            if (captured.size() < most) {
-                const int v = Capture(r, minAngle * Pi / 180, settled);
-                if (v >= 0)
-                    captured.push_back(v);
-            }
+        std::size_t tries = 0;
+        for (const int r : worst) {
+            // What was captured before may have brought this one close.
+            const int t = _probe.Locate(r, _remesh.mesh.triangle[_probe.Owner(r)].v[0]).first;
+            _patch.Take(t, Rings);
+            const double distance = Distance(r);
+            if (distance <= _limit)
+                continue;
+            if (++tries > static_cast<std::size_t>(_remesh.VertexCount()) / 500 + 8)
+                break;
+            const int v = Capture(r, t, distance);
+            if (v < 0)
+                continue;
+            _settled[v] = 1;
+            captured.push_back(v);
+        }
         return captured;
     }
 
 private:
+    /// A part that is cut off by more than so many spacings may get the sharper turn. Measured: the milder one leaves
+    /// such parts cut off, the sharper one is no gain where less is missing.
+    static constexpr double CutOff = 0.45;
+    static constexpr double TurnCosineLimit = -0.17364817766693033;   // of 100 degrees
+    static constexpr double SharperCosineLimit = -0.6427876096865394; // of 130 degrees
+    /// A capture must bring the farthest probe around to less than this share of its distance.
+    static constexpr double Gain = 0.9;
+    static constexpr int Sweeps = 6;
+    static constexpr int Rings = 4;
+
     const Model &_model;
     Remesh &_remesh;
     Probes &_probe;
-    Star _star;
+    TrialPatch _patch;
+    double _limit = 0; // nearer probes are of no interest
+    double _mostCosine = 1;
+    std::vector<char> _settled; // vertices on tips
+    std::vector<int> _near;     // probes around
 
-    struct Shape {
-        double angle;    // smallest angle around the vertex
-        double distance; // largest squared distance between the star and the probes that it owns
-        double turn;     // sharpest turn at an edge in or around the star, in radians
-    };
-
-    Shape Look(int v) const
+    // Of a probe, now. A descent can end on a wrong part where the surface is crumpled: what looks far is looked for
+    // in all of the patch.
+    double Distance(int r) const
     {
-        Shape s = {Pi, StarSquaredDistance(_model, _remesh, v, _star), SharpestTurn()};
-        for (const Side c : _star.corner) {
-            const Triangle &T = _remesh.mesh.triangle[SideTriangle(c)];
-            for (int i = 0; i < 3; ++i) {
-                const Point &x = _remesh.position[T.v[i]];
-                const Point u = _remesh.position[T.v[Next(i)]] - x, w = _remesh.position[T.v[Prev(i)]] - x;
-                s.angle = std::min(s.angle, std::atan2(Norm(Cross(u, w)), Dot(u, w)));
-            }
-            for (int k = _probe.First(SideTriangle(c)); k < _probe.First(SideTriangle(c) + 1); ++k) {
-                double d = 1e300;
-                for (const Side other : _star.corner)
-                    d = std::min(
-                        d, _probe.NearestOnRemesh(SideTriangle(other), _probe[_probe.Owned(k)].point).squaredDistance);
-                s.distance = std::max(s.distance, d);
-            }
+        double squared = _probe.Locate(r, _remesh.mesh.triangle[_probe.Owner(r)].v[0]).second;
+        if (squared > _limit * _limit)
+            for (const int t : _patch.Triangles())
+                squared = std::min(squared, _probe.NearestOnRemesh(t, _probe[r].point).squaredDistance);
+        return std::sqrt(squared);
+    }
+
+    // That of the farthest probe of the patch.
+    double Stray() const
+    {
+        double worst = 0;
+        for (const int r : _near)
+            worst = std::max(worst, Distance(r));
+        return worst;
+    }
+
+    // Free vertices of triangle t and its neighbours, the nearest to p first.
+    std::vector<int> Candidates(int t, const Point &p) const
+    {
+        std::vector<int> found;
+        const Triangle &T = _remesh.mesh.triangle[t];
+        for (int i = 0; i < 3; ++i) {
+            found.push_back(T.v[i]);
+            if (T.n[i] != NoSide)
+                found.push_back(_remesh.mesh.Opposite(T.n[i]));
         }
-        return s;
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        found.erase(
+            std::remove_if(found.begin(), found.end(), [&](int v) { return !_patch.Contains(v) || _settled[v] != 0; }),
+            found.end());
+        std::stable_sort(found.begin(), found.end(), [&](int a, int b) {
+            return SquaredNorm(_remesh.position[a] - p) < SquaredNorm(_remesh.position[b] - p);
+        });
+        return found;
     }
 
-    // A part that is cut off by more than so many spacings may get the sharper turn. Measured: the milder one leaves
-    // such parts cut off, the sharper one is no gain where less is missing.
-    static constexpr double CutOff = 0.45;
-    static constexpr double SharpTurn = 100 * Pi / 180, SharperTurn = 120 * Pi / 180;
-
-    // Sharpest turn at the edges in and around the star of v, features apart.
-    double SharpestTurn() const
-    {
-        const Triangulation &m = _remesh.mesh;
-        const std::vector<Point> &x = _remesh.position;
-        double turn = 0;
-        for (const Side c : _star.corner)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(SideTriangle(c), e);
-                if (m.Mate(s) != NoSide && !m.Constrained(s))
-                    turn = std::max(turn,
-                                    TurnAngle(x[m.Tail(s)], x[m.Head(s)], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]));
-            }
-        return turn;
-    }
-
-    int Capture(int r, double minAngle, std::vector<char> &settled)
+    // The vertex that now sits on probe r, `distance` from triangle t, around which the patch lies; -1 if none may.
+    int Capture(int r, int t, double distance)
     {
         const Point target = _probe[r].point;
-        const Triangle &T = _remesh.mesh.triangle[_probe.Owner(r)];
-        int v = -1;
-        for (const int c : T.v)
-            if (_remesh.place[c].kind == VertexKind::Free && !settled[c] &&
-                (v < 0 || SquaredNorm(_remesh.position[c] - target) < SquaredNorm(_remesh.position[v] - target)))
-                v = c;
-        if (v < 0)
-            return -1;
-        _remesh.mesh.GatherStar(v, _star);
-        for (const int o : _star.outer)
-            if (settled[o])
-                return -1;
-        const Point old = _remesh.position[v];
-        const int oldFace = _remesh.place[v].face;
-        // A tip behind a crease is not for this vertex.
-        const Foot reached = _model.surface.Project(oldFace, old, target, 0).second;
-        if (reached.squaredDistance > 1e-12 * SquaredNorm(target - old))
-            return -1;
-        const Shape before = Look(v);
-        const bool cutOff = _probe.Distance(r) > CutOff * _model.density.spacing[_probe[r].vertex];
-        const double turn = std::max(before.turn, cutOff ? SharperTurn : SharpTurn);
-        // All the way to the tip, or part of it.
-        for (const double way : {1.0, 0.75, 0.5}) {
-            _remesh.position[v] = target;
-            _remesh.place[v].face = _probe[r].face;
-            if (way < 1) {
-                const auto [face, foot] = _model.surface.Project(_probe[r].face, target, old + (target - old) * way, 0);
-                _remesh.position[v] = foot.point;
-                _remesh.place[v].face = face;
-            }
-            const Shape after = Look(v);
-            if (after.turn <= turn && after.angle >= std::min(before.angle, minAngle) &&
-                after.distance < before.distance) {
-                _remesh.rho[v] = _model.density.rho[_probe[r].vertex];
-                settled[v] = 1;
-                return v;
+        const double h = _model.density.spacing[_probe[r].vertex];
+        _near.clear();
+        for (const int k : _patch.Triangles())
+            for (int i = _probe.First(k); i < _probe.First(k + 1); ++i)
+                _near.push_back(_probe.Owned(i));
+        const double before = std::max(distance, Stray());
+        const double cosine = std::max(_patch.WorstCosine(), _mostCosine);
+        const double turn =
+            std::min(_patch.WorstTurnCosine(), distance > CutOff * h ? SharperCosineLimit : TurnCosineLimit);
+        for (const int v : Candidates(t, target)) {
+            const Point old = _remesh.position[v];
+            // A tip behind a crease, or on another sheet, is not for this vertex.
+            if (!_model.surface.Joined(_remesh.place[v].face, _probe[r].face, target, 1.5 * Norm(target - old), 4096))
+                continue;
+            for (const double way : {1.0, 0.75, 0.5}) {
+                Put(r, v, old, way);
+                for (const int sweeps : {0, Sweeps}) {
+                    if (sweeps > 0)
+                        _patch.Relax(sweeps, [&](int o) { return o == v || _settled[o] != 0; });
+                    if (_patch.WorstCosine() <= cosine && _patch.WorstTurnCosine() >= turn &&
+                        Distance(r) < Gain * distance && Stray() <= before)
+                        return v;
+                }
+                _patch.Restore();
             }
         }
-        _remesh.position[v] = old;
-        _remesh.place[v].face = oldFace;
         return -1;
+    }
+
+    // Puts v on probe r, or `way` of the way there from its old position.
+    void Put(int r, int v, const Point &old, double way)
+    {
+        const Point &target = _probe[r].point;
+        const auto [face, foot] = _model.surface.Project(_probe[r].face, target, old + (target - old) * way, 0);
+        _remesh.position[v] = way < 1 ? foot.point : target;
+        _remesh.place[v].face = way < 1 ? face : _probe[r].face;
+        _remesh.rho[v] = _model.density.rho[_probe[r].vertex];
     }
 };
 

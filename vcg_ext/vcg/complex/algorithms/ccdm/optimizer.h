@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/approximation.h>
@@ -46,21 +47,40 @@ public:
     }
 
     /// After Run: puts vertices on tips that are cut off, opens folds, brings the parts that stray closer to
-    /// the surface, and raises the smallest angles.
-    void Close()
+    /// the surface, and raises the smallest angles. False when `progress` stopped it.
+    bool Close(const Progress &progress)
     {
-        ExtremeCapture(_model, _remesh, _probes).Run(5, 25);
         Polish polish(_model, _remesh);
-        polish.Unfold(10);
-        // Measured: the default costs hardly any angle; 1 takes up to a degree.
-        const double weight = 0.1 * _params.approximation * _params.approximation;
-        Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
-        polish.RaiseAngles(MinAngle(_params), 0.1, 20);
-        polish.RaiseAngles(MinAngle(_params), 0.2, 20);
-        polish.Shake(_random.Bits(), 1 + _remesh.VertexCount() / 1000);
-        polish.RaiseAngles(MinAngle(_params), 0.2, 20);
-        polish.RaiseAngles(30, 0.3, 20);
-        polish.RaiseAngles(30, 1.0, 20);
+        const double target = MinAngle(_params);
+        const std::function<void()> step[] = {
+            [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, 25); },
+            [&] { polish.Unfold(10); },
+            [&] {
+                // Measured: the default costs hardly any angle; 1 takes up to a degree.
+                const double weight = 0.1 * _params.approximation * _params.approximation;
+                Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
+            },
+            [&] { polish.RaiseAngles(target, 0.1, 20); },
+            [&] { polish.RaiseAngles(target, 0.2, 20); },
+            [&] {
+                for (int rings = 3; rings <= 5; ++rings) {
+                    polish.Shake(_random.Bits(), 1 + _remesh.VertexCount() / 1000, rings);
+                    if (polish.RaiseAngles(target, 0.2, 20) == 0)
+                        break;
+                }
+            },
+            [&] { polish.RaiseAngles(30, 0.3, 20); },
+            [&] { polish.RaiseAngles(30, 1.0, 20); },
+            // What else can be captured without an angle below the target.
+            [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, target); },
+        };
+        double done = 0;
+        for (const auto &run : step) {
+            run();
+            if (!progress(++done / std::size(step)))
+                return false;
+        }
+        return true;
     }
 
 private:
@@ -146,23 +166,25 @@ private:
         return true;
     }
 
-    // The whole budget for the coarsest level, a part of it for each that is refined from it.
+    // Twice the budget for the coarsest level, where a sweep is cheap; a part of it for each that is
+    // refined from it.
     bool AccelerateByLevels(const std::vector<int> &finer, const Progress &progress)
     {
         const int count = GlobalIterations(_params) * _params.localIterations;
+        const int first = finer.empty() ? count : static_cast<int>(std::lround(CoarseShare * count));
         const int fine = static_cast<int>(std::lround(FineShare * count));
         _report.energy.assign(1, Energy(_remesh, _workers));
         // The work of a sweep is in proportion to the vertices.
-        double work = static_cast<double>(count) * _remesh.VertexCount(), done = 0;
+        double work = static_cast<double>(first) * _remesh.VertexCount(), done = 0;
         for (const int vertices : finer)
             work += static_cast<double>(fine) * vertices;
-        double share = static_cast<double>(count) * _remesh.VertexCount() / work;
-        if (!Accelerate(count, 0.5 * _params.lambda, 0, 0.9 * share, progress))
+        double share = static_cast<double>(first) * _remesh.VertexCount() / work;
+        if (!Accelerate(first, 0.5 * _params.lambda, 0, 0.9 * share, progress))
             return false;
         for (std::size_t k = 0; k < finer.size(); ++k) {
             Polish(_model, _remesh).Unfold(10);
             Refinement refinement(_model, _remesh);
-            refinement.Run();
+            refinement.Run(_workers);
             refinement.SplitLongest(finer[k] - _remesh.VertexCount());
             Polish(_model, _remesh).Unfold(10);
             refinement.Sort();
@@ -221,8 +243,9 @@ private:
         return progress(1);
     }
 
-    // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time.
-    static constexpr double FineShare = 0.3, FineNoise = 0.25;
+    // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time; more at the
+    // coarse level raise them where the surface has no features, by 0.1 degrees.
+    static constexpr double CoarseShare = 2, FineShare = 0.3, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 10;
     static constexpr int ApproximationRounds = 4;

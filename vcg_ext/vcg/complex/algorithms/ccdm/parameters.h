@@ -66,7 +66,7 @@ struct Params {
     /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
     /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 24 with the
-    /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, that many
+    /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, twice as many
     /// there and three tenths as many at full resolution.
     std::optional<int> globalIterations;
     /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.

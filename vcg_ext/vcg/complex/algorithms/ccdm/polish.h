@@ -8,8 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <vcg/complex/algorithms/ccdm/centroid_rules.h>
-#include <vcg/complex/algorithms/ccdm/delaunay.h>
+#include <vcg/complex/algorithms/ccdm/trial_patch.h>
 
 namespace vcg {
 namespace ccdm {
@@ -19,12 +18,17 @@ namespace ccdm {
 class Polish
 {
 public:
-    Polish(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh), _relocator(model, remesh) {}
+    Polish(const Model &model, Remesh &remesh)
+        : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh),
+          _failuresLeft(50 + remesh.VertexCount() / 50)
+    {
+    }
 
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
     /// change may take the mesh no further from the surface than it was, or than `stray` times an edge
-    /// length. Returns the number of triangles that stay under the angle. Later calls for no larger angle look
-    /// only at what the first one left and at what has changed since.
+    /// length. Attempts in vain are limited to a fiftieth of the vertices, all calls together. Returns the number of
+    /// triangles that stay under the angle. Later calls for no larger angle look only at what the first one left and at
+    /// what has changed since.
     int RaiseAngles(double degrees, double stray, int rounds)
     {
         _stray = stray * stray;
@@ -34,7 +38,7 @@ public:
             std::iota(_bad.begin(), _bad.end(), 0);
         }
         _searched = degrees;
-        // A triangle that could not be helped twice is left alone.
+        // A triangle that could not be helped twice is left alone; thin parts may have nothing else.
         std::unordered_map<int, int> failures;
         for (int round = 0;; ++round) {
             _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !(LargestCosine(t) > cosine); }),
@@ -43,9 +47,10 @@ public:
                 break;
             bool improved = false;
             for (const int t : _bad)
-                if (LargestCosine(t) > cosine && failures[t] < 2) {
+                if (LargestCosine(t) > cosine && _failuresLeft > 0 && failures[t] < 2) {
                     const bool helped = Improve(t);
                     failures[t] = helped ? 0 : failures[t] + 1;
+                    _failuresLeft -= helped ? 0 : 1;
                     improved = improved || helped;
                 }
             LookAroundChanged();
@@ -57,8 +62,8 @@ public:
 
     /// Shakes what RaiseAngles has left and no feature touches: the vertices around such a triangle are perturbed and
     /// optimised anew, a few times over, until the smallest angle there is larger than it was. Where two irregular
-    /// vertices hold each other, no small move helps. At most `places` of them.
-    void Shake(std::uint64_t seed, int places)
+    /// vertices hold each other, no small move helps. At most `places` of them, as many `rings` around each.
+    void Shake(std::uint64_t seed, int places, int rings = 3)
     {
         const std::vector<int> left = _bad;
         Random random(seed);
@@ -70,7 +75,7 @@ public:
                 continue;
             if (places-- == 0)
                 break;
-            ShakeAround(t, random);
+            ShakeAround(t, rings, random);
         }
         LookAroundChanged();
     }
@@ -84,13 +89,14 @@ public:
             folded.clear();
             for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t)
                 for (int e = 0; e < 3; ++e)
-                    if (_remesh.mesh.Mate(MakeSide(t, e)) > MakeSide(t, e) && TurnCosine(MakeSide(t, e)) < FoldCosine)
+                    if (_remesh.mesh.Mate(MakeSide(t, e)) > MakeSide(t, e) &&
+                        TurnCosine(_remesh, MakeSide(t, e)) < FoldCosine)
                         folded.push_back(MakeSide(t, e));
             if (folded.empty() || round == rounds)
                 break;
             bool improved = false;
             for (const Side s : folded)
-                if (TurnCosine(s) < FoldCosine) {
+                if (TurnCosine(_remesh, s) < FoldCosine) {
                     const Side mate = _remesh.mesh.Mate(s);
                     const int around[4] = {_remesh.mesh.Opposite(s), _remesh.mesh.Opposite(mate), _remesh.mesh.Tail(s),
                                            _remesh.mesh.Head(s)};
@@ -122,26 +128,15 @@ private:
     const Model &_model;
     Remesh &_remesh;
     Relocator _relocator;
+    TrialPatch _patch;
+    int _failuresLeft; // attempts at triangles, all calls together, that may be in vain
     double _stray = 0;
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed
     Star _star;
 
-    static double LargestCosine(const Point &a, const Point &b, const Point &c)
-    {
-        // The smallest angle lies opposite the shortest side.
-        const double la = SquaredNorm(c - b), lb = SquaredNorm(a - c), lc = SquaredNorm(b - a);
-        const double shortest = std::min({la, lb, lc});
-        const double product = la <= lb && la <= lc ? lb * lc : lb <= lc ? la * lc : la * lb;
-        return product > 0 ? (la + lb + lc - 2 * shortest) / (2 * std::sqrt(product)) : 1;
-    }
-    // Cosine of the smallest angle of a triangle: less is better.
-    double LargestCosine(int t) const
-    {
-        const Triangle &T = _remesh.mesh.triangle[t];
-        return LargestCosine(_remesh.position[T.v[0]], _remesh.position[T.v[1]], _remesh.position[T.v[2]]);
-    }
+    double LargestCosine(int t) const { return ccdm::LargestCosine(_remesh, t); }
 
     // A flip that is taken back may have swapped the records of its triangles: that is a change too.
     void LookAroundChanged()
@@ -178,80 +173,18 @@ private:
         return improved;
     }
 
-    // A part of the mesh as it was: what flips of edges and moves of vertices inside it change.
-    struct Snapshot {
-        std::vector<std::pair<int, Triangle>> triangle;
-        struct Vertex {
-            int v, incident;
-            Point position;
-            Place place;
-            double rho;
-        };
-        std::vector<Vertex> vertex;
-    };
-
-    // The free vertices within some rings of a triangle, in a fixed order.
-    std::vector<int> Around(int t, int rings) const
-    {
-        std::vector<int> found(std::begin(_remesh.mesh.triangle[t].v), std::end(_remesh.mesh.triangle[t].v));
-        for (std::size_t begin = 0; rings > 0; --rings) {
-            const std::size_t end = found.size();
-            for (; begin < end; ++begin)
-                _remesh.mesh.VisitSpokes(found[begin], [&](int o, Side) {
-                    if (_remesh.place[o].kind == VertexKind::Free &&
-                        std::find(found.begin(), found.end(), o) == found.end())
-                        found.push_back(o);
-                    return true;
-                });
-        }
-        return found;
-    }
-
-    Snapshot Save(const std::vector<int> &region) const
-    {
-        Snapshot saved;
-        std::vector<int> triangles;
-        for (const int v : region) {
-            saved.vertex.push_back(
-                {v, _remesh.mesh.incident[v], _remesh.position[v], _remesh.place[v], _remesh.rho[v]});
-            _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
-                triangles.push_back(SideTriangle(s));
-                return true;
-            });
-        }
-        std::sort(triangles.begin(), triangles.end());
-        triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-        for (const int t : triangles)
-            saved.triangle.emplace_back(t, _remesh.mesh.triangle[t]);
-        return saved;
-    }
-
-    void Restore(const Snapshot &saved)
-    {
-        for (const auto &[t, record] : saved.triangle)
-            _remesh.mesh.triangle[t] = record;
-        for (const Snapshot::Vertex &x : saved.vertex) {
-            _remesh.mesh.incident[x.v] = x.incident;
-            _remesh.mesh.ForgetRing(x.v);
-            SetVertex(x.v, x.position, x.place, x.rho);
-        }
-    }
-
     struct Fitness {
         double cosine = -1; // of the smallest angle
         double stray = 0;   // largest squared distance of a centroid, in squared edges
         double turn = 1;    // cosine of the sharpest turn
     };
 
-    Fitness FitnessOf(const Snapshot &part) const
+    Fitness FitnessOfPatch() const
     {
-        Fitness f;
-        for (const auto &record : part.triangle) {
-            const int t = record.first;
+        Fitness f = {_patch.WorstCosine(), 0, _patch.WorstTurnCosine()};
+        for (const int t : _patch.Triangles()) {
             const Triangle &T = _remesh.mesh.triangle[t];
             const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
-            f.cosine = std::max(f.cosine, LargestCosine(t));
-            f.turn = std::min(f.turn, SharpestTurnCosine(t, t));
             const int *home = std::find_if(std::begin(T.v), std::end(T.v),
                                            [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
             if (home != std::end(T.v))
@@ -261,58 +194,27 @@ private:
         return f;
     }
 
-    // Flips inside the region until it is Delaunay.
-    void FlipWithin(const std::vector<int> &region, const Snapshot &part)
+    void ShakeAround(int t, int rings, Random &random)
     {
-        const auto inside = [&](int v) { return std::find(region.begin(), region.end(), v) != region.end(); };
-        for (int round = 0; round < 4; ++round) {
-            bool flipped = false;
-            for (const auto &record : part.triangle)
-                for (int e = 0; e < 3; ++e) {
-                    const Side s = MakeSide(record.first, e);
-                    if (_remesh.mesh.Mate(s) <= s)
-                        continue;
-                    const Hinge h(_remesh, s);
-                    if (h.Excess() > 0 && inside(h.apexA) && inside(h.apexB) && inside(_remesh.mesh.Tail(s)) &&
-                        inside(_remesh.mesh.Head(s)) && MayFlip(_remesh, s, h)) {
-                        _remesh.mesh.Flip(s);
-                        flipped = true;
-                    }
-                }
-            if (!flipped)
-                return;
-        }
-    }
-
-    void ShakeAround(int t, Random &random)
-    {
-        const std::vector<int> region = Around(t, 3);
+        _patch.Take(t, rings);
+        const std::vector<int> &region = _patch.Vertices();
         _changed.insert(_changed.end(), region.begin(), region.end());
-        const Snapshot saved = Save(region);
-        const Fitness before = FitnessOf(saved);
-        const bool uniform = _model.density.uniform;
+        const Fitness before = FitnessOfPatch();
         const double wanted = std::cos(_searched * Pi / 180);
         for (int attempt = 0; attempt < Shakes; ++attempt) {
-            const Perturbation perturb{0.2 + 0.05 * attempt, random.Bits()};
-            for (const int v : region)
-                _relocator.Relocate(v, perturb);
-            for (int i = 0; i < 8; ++i) {
-                FlipWithin(region, saved);
-                for (const int v : region)
-                    _relocator.Relocate(v, CellCentroid{_remesh, uniform});
-            }
-            FlipWithin(region, saved);
+            _patch.Sweep(Perturbation{0.2 + 0.05 * attempt, random.Bits()});
+            _patch.Relax(8, [](int) { return false; });
             for (int round = 0; round < 4; ++round)
-                for (const auto &record : saved.triangle)
-                    if (LargestCosine(record.first) > wanted)
-                        for (const int v : _remesh.mesh.triangle[record.first].v)
-                            if (std::find(region.begin(), region.end(), v) != region.end())
+                for (const int u : _patch.Triangles())
+                    if (LargestCosine(u) > wanted)
+                        for (const int v : _remesh.mesh.triangle[u].v)
+                            if (_patch.Contains(v))
                                 Shift(v);
-            const Fitness after = FitnessOf(saved);
+            const Fitness after = FitnessOfPatch();
             if (after.cosine < before.cosine - 1e-3 && after.stray <= std::max(before.stray, _stray) &&
                 after.turn >= std::min(before.turn, 0.0))
                 return;
-            Restore(saved);
+            _patch.Restore();
         }
     }
 
@@ -367,8 +269,8 @@ private:
         if (_remesh.mesh.Mate(s) == NoSide)
             return false;
         const Hinge h(_remesh, s);
-        const double before = std::max(LargestCosine(h.a, h.p, h.q), LargestCosine(h.b, h.p, h.q));
-        const double after = std::max(LargestCosine(h.a, h.p, h.b), LargestCosine(h.a, h.b, h.q));
+        const double before = std::max(ccdm::LargestCosine(h.a, h.p, h.q), ccdm::LargestCosine(h.b, h.p, h.q));
+        const double after = std::max(ccdm::LargestCosine(h.a, h.p, h.b), ccdm::LargestCosine(h.a, h.b, h.q));
         if (!(after < before - 1e-6) || !MayFlip(_remesh, s, h))
             return false;
         // The new edge strays from the surface no further than the old one, or than the limit.
@@ -381,30 +283,6 @@ private:
         return true;
     }
 
-    static double TurnCosine(const Point &a, const Point &b, const Point &p, const Point &q)
-    {
-        const Point e = b - a, n1 = Cross(e, p - a), n2 = Cross(q - a, e);
-        const double scale = std::sqrt(SquaredNorm(n1) * SquaredNorm(n2));
-        return scale > 0 ? Dot(n1, n2) / scale : -1;
-    }
-    // Cosine of the turn of an edge; 1 for features and boundaries, which may turn as they like.
-    double TurnCosine(Side s) const
-    {
-        const Triangulation &m = _remesh.mesh;
-        if (m.Mate(s) == NoSide || m.Constrained(s))
-            return 1;
-        return TurnCosine(_remesh.position[m.Tail(s)], _remesh.position[m.Head(s)], _remesh.position[m.Opposite(s)],
-                          _remesh.position[m.Opposite(m.Mate(s))]);
-    }
-
-    double SharpestTurnCosine(int t, int u) const
-    {
-        double worst = 1;
-        for (int e = 0; e < 3; ++e)
-            worst = std::min({worst, TurnCosine(MakeSide(t, e)), TurnCosine(MakeSide(u, e))});
-        return worst;
-    }
-
     // Flips an edge if the sharpest turn at its two triangles gets less by that.
     bool FlipOpens(Side s)
     {
@@ -413,9 +291,9 @@ private:
         if (mate == NoSide || m.Constrained(s) || m.FindEdge(m.Opposite(s), m.Opposite(mate)) != NoSide)
             return false;
         const int t = SideTriangle(s), u = SideTriangle(mate);
-        const double before = SharpestTurnCosine(t, u);
+        const double before = std::min(SharpestTurnCosine(_remesh, t), SharpestTurnCosine(_remesh, u));
         const Side flipped = m.Flip(s);
-        if (SharpestTurnCosine(t, u) > before + 1e-3)
+        if (std::min(SharpestTurnCosine(_remesh, t), SharpestTurnCosine(_remesh, u)) > before + 1e-3)
             return true;
         m.Flip(flipped);
         return false;
@@ -432,18 +310,15 @@ private:
             const Point stay = x;
             x += q;
             double worst = 1;
-            for (const Side c : _star.corner) {
-                const int t = SideTriangle(c);
-                for (int e = 0; e < 3; ++e)
-                    worst = std::min(worst, TurnCosine(MakeSide(t, e)));
-            }
+            for (const Side c : _star.corner)
+                worst = std::min(worst, SharpestTurnCosine(_remesh, SideTriangle(c)));
             x = stay;
             return worst;
         };
         bool improved = false;
         for (double size = 0.5; size > 0.02; size *= 0.5)
             for (int k = 0; k < 6; ++k)
-                for (int repeat = 0; repeat < 4 && _relocator.TryShift(v, size, k * Pi / 3, score); ++repeat)
+                for (int repeat = 0; repeat < 4 && _relocator.TryShift(v, size, k, score); ++repeat)
                     improved = true;
         return improved;
     }
@@ -459,13 +334,13 @@ private:
         const auto score = [](const LocalStar &s, const Point &q) {
             double worst = -1;
             for (int i = 0; i < s.triangles; ++i)
-                worst = std::max(worst, LargestCosine(q, s.spoke[i], s.spoke[s.After(i)]));
+                worst = std::max(worst, ccdm::LargestCosine(q, s.spoke[i], s.spoke[s.After(i)]));
             return -worst;
         };
         bool improved = false;
         for (double size = 0.2; size > 0.02; size *= 0.5)
             for (int k = 0; k < 6; ++k)
-                for (int repeat = 0; repeat < 8 && _relocator.TryShift(v, size, k * Pi / 3, score); ++repeat)
+                for (int repeat = 0; repeat < 8 && _relocator.TryShift(v, size, k, score); ++repeat)
                     improved = true;
         if (!improved)
             return false;

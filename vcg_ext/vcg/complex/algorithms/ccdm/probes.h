@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
@@ -47,6 +48,34 @@ public:
         return NearestOnTriangle(a, _remesh.position[T.v[1]] - a, _remesh.position[T.v[2]] - a, p);
     }
 
+    /// Nearest triangle of a probe and its squared distance, by descent from a vertex of the remesh that lies close
+    /// by on the surface: first from vertex to vertex, then among the triangles around the last.
+    std::pair<int, double> Locate(int r, int v) const
+    {
+        const Point &p = _probe[r].point;
+        double best = SquaredNorm(_remesh.position[v] - p);
+        for (bool moved = true; moved;) {
+            moved = false;
+            _remesh.mesh.VisitSpokes(v, [&](int o, Side) {
+                const double d = SquaredNorm(_remesh.position[o] - p);
+                if (d < best) {
+                    best = d;
+                    v = o;
+                    moved = true;
+                }
+                return !moved;
+            });
+        }
+        std::pair<int, double> nearest = {-1, 1e300};
+        _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+            const double d = NearestOnRemesh(SideTriangle(s), p).squaredDistance;
+            if (d < nearest.second)
+                nearest = {SideTriangle(s), d};
+            return nearest.second > 0;
+        });
+        return nearest;
+    }
+
     /// Finds every probe's nearest triangle on its sheet.
     void Find()
     {
@@ -55,8 +84,11 @@ public:
         _distance.assign(_probe.size(), 0);
         Chunks::For(_workers, Count(), [&](int first, int last, int) {
             for (int r = first; r < last; ++r)
-                if (near[_probe[r].vertex] >= 0)
-                    Descend(r, near[_probe[r].vertex]);
+                if (near[_probe[r].vertex] >= 0) {
+                    const auto [owner, squared] = Locate(r, near[_probe[r].vertex]);
+                    _owner[r] = owner;
+                    _distance[r] = std::sqrt(squared);
+                }
         });
         _first.assign(_remesh.mesh.TriangleCount() + 1, 0);
         for (const int t : _owner)
@@ -130,36 +162,6 @@ private:
                 return true;
             });
         return near;
-    }
-
-    // Nearest triangle by descent from a vertex of the remesh that lies close by on the surface: first
-    // from vertex to vertex, then among the triangles around the last.
-    void Descend(int r, int v)
-    {
-        const Point &p = _probe[r].point;
-        double best = SquaredNorm(_remesh.position[v] - p);
-        for (bool moved = true; moved;) {
-            moved = false;
-            _remesh.mesh.VisitSpokes(v, [&](int o, Side) {
-                const double d = SquaredNorm(_remesh.position[o] - p);
-                if (d < best) {
-                    best = d;
-                    v = o;
-                    moved = true;
-                }
-                return !moved;
-            });
-        }
-        double least = 1e300;
-        _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
-            const double d = NearestOnRemesh(SideTriangle(s), p).squaredDistance;
-            if (d < least) {
-                least = d;
-                _owner[r] = SideTriangle(s);
-            }
-            return least > 0;
-        });
-        _distance[r] = std::sqrt(least);
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -118,6 +119,29 @@ public:
             }
         }
         return {bestFace, best};
+    }
+
+    /// Whether two faces are joined by faces that come within `radius` of p, without crossing a feature; after
+    /// `most` faces the answer is no.
+    bool Joined(int from, int to, const Point &p, double radius, std::size_t most) const
+    {
+        std::vector<int> visited(1, from);
+        std::unordered_set<int> known(visited.begin(), visited.end());
+        for (std::size_t k = 0; k < visited.size() && visited.size() < most; ++k) {
+            if (visited[k] == to)
+                return true;
+            const Triangle &T = mesh.triangle[visited[k]];
+            for (int e = 0; e < 3; ++e) {
+                if (T.n[e] == NoSide || T.Constrained(e))
+                    continue;
+                const Point &tail = position[T.v[Next(e)]];
+                const int next = SideTriangle(T.n[e]);
+                if (SegmentSquaredDistance(p, tail, position[T.v[Prev(e)]] - tail) < radius * radius &&
+                    known.insert(next).second)
+                    visited.push_back(next);
+            }
+        }
+        return false;
     }
 
     /// Nearest point of one face.

@@ -60,15 +60,21 @@ public:
         return Move(v, displacement(_star, v), [](const Point &) { return true; });
     }
 
-    /// Moves v by `size` times its mean edge length in the direction `angle` of its tangent plane if
+    /// Moves v by `size` times its mean edge length in the k-th of six directions of its tangent plane if
     /// score(star, position relative to v) rises by that. For searches of single vertices.
     template <class Score>
-    bool TryShift(int v, double size, double angle, Score score)
+    bool TryShift(int v, double size, int k, Score score)
     {
+        constexpr double half = 0.5, root = 0.8660254037844386; // cosine and sine of 60 degrees
+        constexpr double direction[6][2] = {{1, 0},  {half, root},   {-half, root},
+                                            {-1, 0}, {-half, -root}, {half, -root}};
         Gather(v);
-        const Point step = TangentStep(_star, angle) * (size * _star.radius);
-        const double before = score(_star, Point(0, 0, 0));
-        return Move(v, step, [&](const Point &q) { return score(_star, q) > before + 1e-6; });
+        const Point step = TangentStep(_star, direction[k][0], direction[k][1]) * (size * _star.radius);
+        const double wanted = score(_star, Point(0, 0, 0)) + 1e-6;
+        // Finding the surface costs most: a free vertex is to gain by the step as such.
+        if (_remesh.place[v].kind == VertexKind::Free && !(score(_star, step) > wanted))
+            return false;
+        return Move(v, step, [&](const Point &q) { return score(_star, q) > wanted; });
     }
 
     /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score if
@@ -90,13 +96,13 @@ public:
                     [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; });
     }
 
-    /// Unit vector at `angle` in the tangent plane of a star.
-    static Point TangentStep(const LocalStar &star, double angle)
+    /// The vector (x, y) in the tangent plane of a star.
+    static Point TangentStep(const LocalStar &star, double x, double y)
     {
         const Point n = Normalized(star.normal);
         const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
         const Point t1 = Normalized(Cross(n, axis)), t2 = Cross(n, t1);
-        return t1 * std::cos(angle) + t2 * std::sin(angle);
+        return t1 * x + t2 * y;
     }
 
 private:

@@ -60,7 +60,7 @@ private:
 
         if (!Begin("checking the input", 0, 3))
             return false;
-        InputMesh prepared(input);
+        InputMesh prepared(input, _workers);
         _report.defects = prepared.defects;
         _report.inputTopology = prepared.topology;
         if (!prepared.refusal.empty())
@@ -70,11 +70,12 @@ private:
         if (!Begin("finding features", 3, 6))
             return false;
         Model model;
-        model.surface = ReferenceSurface(std::move(prepared.mesh.position), prepared.mesh.face);
+        model.surface.position = std::move(prepared.mesh.position);
+        model.surface.mesh = std::move(prepared.tables);
         if (!FindFeatures(model, prepared))
             return false;
 
-        ThinParts thin(model);
+        ThinParts thin(model, _workers);
         WarnOfNarrowPlaces(thin, prepared);
 
         Remesh remesh;
@@ -94,8 +95,11 @@ private:
     {
         Params params = _params;
         int levels = params.optimizer == OptimizerKind::Accelerated ? Levels(model, params.vertexCount) : 0;
-        for (;;) {
-            const bool passed = Attempt(model, params, levels, remesh);
+        for (int growths = 0;;) {
+            bool passed = Attempt(model, params, levels, remesh);
+            // Quartered, what is too many at the coarse level is four times that.
+            if (passed && levels > 0 && remesh.VertexCount() > params.vertexCount)
+                passed = Fail(Status::CheckFailed, "the coarse level has too many vertices");
             if (passed && levels > 0 && SmallestFreeAngle(remesh) < MinAngle(params) - AngleSlack &&
                 !SecondAttempt(model, params, remesh))
                 return false;
@@ -116,7 +120,7 @@ private:
                                            _report.message);
                 params.optimizer = OptimizerKind::Annealing;
                 params.sampler = SamplerKind::Random;
-            } else if (got < MostForGrowth) {
+            } else if (got < MostForGrowth && growths++ < MostGrowths) {
                 const double before = params.vertexCount;
                 params.vertexCount = got + got / 2;
                 for (double &h : model.density.spacing)
@@ -186,7 +190,8 @@ private:
 
         if (!Begin("polishing", 92, 97))
             return false;
-        optimizer.Close();
+        if (!optimizer.Close([this](double x) { return Advance(x); }))
+            return false;
 
         return Begin("checking the result", 97, 100) && Check(model, remesh);
     }
@@ -267,7 +272,7 @@ private:
 
     void WarnOfNarrowPlaces(ThinParts &thin, const InputMesh &prepared)
     {
-        _report.narrow = thin.Find();
+        _report.narrow = thin.Find(_workers);
         for (NarrowPlace &p : _report.narrow) {
             const Point at = prepared.Restore(Point(p.position[0], p.position[1], p.position[2]));
             p.position = {at[0], at[1], at[2]};
@@ -316,11 +321,16 @@ private:
             LimitGradation(surface, _params.vertexCount, MostGradation, phi);
         model.density = MakeDensityField(surface, std::move(phi), _params.density == DensityKind::Uniform,
                                          DensityExponent(_params), _params.vertexCount);
-        const int dropped = FalseCreases(surface, model.density.spacing, marked, _params.featureAngle).Drop();
+        FalseCreases falseCreases(surface, model.density.spacing, marked, _params.featureAngle);
+        const int dropped = falseCreases.Drop();
         model.features = FeatureTracer(surface, model.density.spacing, marked, CornerAngle).Trace();
         _report.featureCurves = static_cast<int>(model.features.curve.size());
         _report.featureCorners = static_cast<int>(model.features.corner.size());
         _report.prunedFragments = dropped + model.features.pruned;
+        const std::string warning =
+            DroppedCreasesWarning(falseCreases.DroppedEdges() + model.features.prunedEdges, _params.featureAngle);
+        if (!warning.empty())
+            _report.warnings.push_back(warning);
         return true;
     }
 
@@ -332,8 +342,10 @@ private:
             h *= scale;
         SampleSet samples;
         Random random(_params.seed);
-        samples.onCurves = SampleCurves(model.surface, model.features, model.density);
-        const int featureSamples = static_cast<int>(samples.onCurves.size() + model.features.corner.size());
+        const int corners = static_cast<int>(model.features.corner.size());
+        samples.onCurves =
+            SampleCurvesWithin(model.surface, model.features, model.density, params.vertexCount - corners);
+        const int featureSamples = static_cast<int>(samples.onCurves.size()) + corners;
         finer.clear();
         int coarse = params.vertexCount;
         int boundary = BoundarySegments(model, samples.onCurves);
@@ -350,7 +362,7 @@ private:
         case SamplerKind::Front:
             samples.onFaces =
                 FrontSampler(model.surface, model.features, model.density, _report.inputTopology.orientable)
-                    .Run(samples.onCurves, rest, random);
+                    .Run(samples.onCurves, rest, random, _workers);
             break;
         }
         for (double &h : model.density.spacing)
@@ -424,14 +436,15 @@ private:
     void WarnOfFolds()
     {
         if (_report.foldedEdges > 0)
-            _report.warnings.push_back(std::to_string(_report.foldedEdges) +
-                                       " edges of the result are sharper than 150 degrees, as the input is there at "
-                                       "this number of vertices");
+            _report.warnings.push_back(
+                std::to_string(_report.foldedEdges) +
+                (_report.foldedEdges == 1 ? " edge of the result is" : " edges of the result are") +
+                " sharper than 150 degrees, as the input is there at this number of vertices");
     }
 
     bool Check(const Model &model, const Remesh &remesh)
     {
-        const ResultCheck check(model, remesh);
+        const ResultCheck check(model, remesh, _workers);
         _report.resultTopology = check.topology;
         _report.foldedEdges = check.foldedEdges;
         _report.topologyPreserved = check.topology.SameTypeAs(_report.inputTopology);
@@ -447,7 +460,8 @@ private:
 
     void Certify(const Model &model, const Remesh &remesh, ThinParts &thin, const InputMesh &prepared)
     {
-        _report.angles = Certifier(model, remesh, thin, MinAngle(_params), _report.inputTopology.orientable).Run();
+        _report.angles =
+            Certifier(model, remesh, thin, MinAngle(_params), _report.inputTopology.orientable).Run(_workers);
         for (SmallAngle &a : _report.angles.below) {
             const Point p = prepared.Restore(Point(a.position[0], a.position[1], a.position[2]));
             a.position = {p[0], p[1], p[2]};
@@ -512,6 +526,7 @@ private:
     static constexpr int LeastCoarse = 1000;
     /// Counts below this may be raised where fewer vertices cannot but fold.
     static constexpr int MostForGrowth = 200;
+    static constexpr int MostGrowths = 8;
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the
     // curvature more closely.
     static constexpr double MostGradation = 0.1;

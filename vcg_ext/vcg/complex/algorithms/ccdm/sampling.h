@@ -36,9 +36,9 @@ inline int FewestSegments(const FeatureCurve &c, const std::vector<Point> &posit
     return twin || c.Length() > 1.2 * chord ? 2 : 1;
 }
 
-/// Spaces samples along a curve evenly in the measure ds / h, as many as that measure holds, rounded
-/// [AdVDI03].
-inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int index, int fewest,
+/// Spaces samples along a curve evenly in the measure ds / h, as many as that measure holds, divided by
+/// `stretch` and rounded [AdVDI03].
+inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int index, int fewest, double stretch,
                         std::vector<CurveSample> &out)
 {
     std::vector<double> measure(c.vertex.size(), 0);
@@ -47,7 +47,7 @@ inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int 
         measure[k + 1] = measure[k] + (c.arc[k + 1] - c.arc[k]) / h;
     }
     const double total = measure.back();
-    const int segments = std::max(fewest, static_cast<int>(std::lround(total)));
+    const int segments = std::max(fewest, static_cast<int>(std::lround(total / stretch)));
     int k = 0;
     for (int i = c.closed ? 0 : 1; i < segments; ++i) {
         const double want = total * i / segments;
@@ -59,9 +59,9 @@ inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int 
     }
 }
 
-/// Samples of all curves.
+/// Samples of all curves, `stretch` times as far apart as the density wants.
 inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, const FeatureGraph &features,
-                                             const DensityField &density)
+                                             const DensityField &density, double stretch = 1)
 {
     std::vector<std::pair<int, int>> ends;
     for (const FeatureCurve &c : features.curve)
@@ -73,8 +73,22 @@ inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, co
         const FeatureCurve &c = features.curve[i];
         const auto range = std::equal_range(sorted.begin(), sorted.end(), ends[i]);
         SampleCurve(density, c, static_cast<int>(i),
-                    FewestSegments(c, surface.position, range.second - range.first > 1), samples);
+                    FewestSegments(c, surface.position, range.second - range.first > 1), stretch, samples);
     }
+    return samples;
+}
+
+/// Samples of all curves, further apart than the density wants if there would be more than `most`; still more only if
+/// the curves cannot do with fewer.
+inline std::vector<CurveSample> SampleCurvesWithin(const ReferenceSurface &surface, const FeatureGraph &features,
+                                                   const DensityField &density, int most)
+{
+    std::vector<CurveSample> samples = SampleCurves(surface, features, density);
+    if (static_cast<int>(samples.size()) <= most)
+        return samples;
+    const std::size_t fewest = SampleCurves(surface, features, density, 1e9).size();
+    for (double stretch = 1.05; static_cast<int>(samples.size()) > most && samples.size() > fewest; stretch *= 1.05)
+        samples = SampleCurves(surface, features, density, stretch);
     return samples;
 }
 
@@ -93,10 +107,11 @@ inline std::vector<SurfacePoint> SampleFaces(const ReferenceSurface &surface, co
         measure[t] = total;
     }
     samples.reserve(count);
+    int t = 0;
     for (int i = 0; i < count; ++i) {
         const double want = total * (i + random.Unit()) / count;
-        const auto at = std::upper_bound(measure.begin(), measure.end(), want);
-        const int t = static_cast<int>(std::min<std::ptrdiff_t>(at - measure.begin(), surface.FaceCount() - 1));
+        while (t + 1 < surface.FaceCount() && measure[t] <= want)
+            ++t;
         const double r = std::sqrt(random.Unit()), w = random.Unit();
         SurfacePoint p;
         p.face = t;
