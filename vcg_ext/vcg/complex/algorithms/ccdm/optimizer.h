@@ -11,8 +11,8 @@
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
-#include <vcg/complex/algorithms/ccdm/polish.h>
 #include <vcg/complex/algorithms/ccdm/refinement.h>
+#include <vcg/complex/algorithms/ccdm/transplant.h>
 
 namespace vcg {
 namespace ccdm {
@@ -71,6 +71,10 @@ public:
             },
             [&] { polish.RaiseAngles(30, 0.3, 20); },
             [&] { polish.RaiseAngles(30, 1.0, 20); },
+            [&] {
+                if (Transplant(_model, _remesh).Run(target, MostTransplants))
+                    _schedule.Changed();
+            },
             // What else can be captured without an angle below the target.
             [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, target); },
         };
@@ -249,6 +253,7 @@ private:
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 10;
     static constexpr int ApproximationRounds = 4;
+    static constexpr int MostTransplants = 8;
 };
 
 } // namespace ccdm

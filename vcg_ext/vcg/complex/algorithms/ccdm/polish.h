@@ -18,15 +18,16 @@ namespace ccdm {
 class Polish
 {
 public:
-    Polish(const Model &model, Remesh &remesh)
-        : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh),
-          _failuresLeft(50 + remesh.VertexCount() / 50)
+    Polish(const Model &model, Remesh &remesh) : Polish(model, remesh, 50 + remesh.VertexCount() / 50) {}
+    /// `failures`: how many attempts at triangles may be in vain.
+    Polish(const Model &model, Remesh &remesh, int failures)
+        : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh), _failuresLeft(failures)
     {
     }
 
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
     /// change may take the mesh no further from the surface than it was, or than `stray` times an edge
-    /// length. Attempts in vain are limited to a fiftieth of the vertices, all calls together. Returns the number of
+    /// length. Attempts in vain are limited, all calls together. Returns the number of
     /// triangles that stay under the angle. Later calls for no larger angle look only at what the first one left and at
     /// what has changed since.
     int RaiseAngles(double degrees, double stray, int rounds)

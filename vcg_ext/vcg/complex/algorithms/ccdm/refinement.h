@@ -72,9 +72,11 @@ public:
     }
 
     /// Numbers vertices and triangles along a space-filling curve.
-    void Sort()
+    void Sort() { Renumber(SpatialOrder(_remesh.position)); }
+
+    /// Vertex k becomes what order[k] was; vertices that are not named, which no live triangle may use, are dropped.
+    void Renumber(const std::vector<int> &order)
     {
-        const std::vector<int> order = SpatialOrder(_remesh.position);
         _remesh.mesh.Compact(order);
         Remesh sorted;
         sorted.position.reserve(order.size());
