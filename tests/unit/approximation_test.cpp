@@ -50,13 +50,14 @@ double Stray(const Model &model, const Remesh &r)
 }
 
 // A remesh of 400 vertices of a sphere with lobes, made without regard to the distance.
-Remesh Coarse(const Model &model, double approximation)
+Remesh Coarse(const Model &model, double approximation, unsigned seed = 1)
 {
     Params params;
+    params.seed = seed;
     params.vertexCount = 400;
     params.approximation = approximation;
     Report report;
-    Random random(1);
+    Random random(seed);
     SampleSet samples;
     samples.onFaces = SampleFaces(model.surface, model.density, params.vertexCount, random);
     Remesh r;
@@ -80,14 +81,21 @@ shapes::Shape Spiked()
 TEST(Approximation, BringsTheRemeshCloser)
 {
     const Model model = meshes::MakeModel(Spiked(), 400, 180);
-    Remesh r = Coarse(model, 0);
-    const double before = Stray(model, r);
-    Probes probes(model, r, meshes::Alone());
-    Approximation(model, r, probes, meshes::Alone()).Run(0.05, 6);
-    EXPECT_LT(Stray(model, r), 0.9 * before);
-    EXPECT_EQ(ResultCheck(model, r).fault, "");
-    for (int v = 0; v < r.VertexCount(); ++v)
-        EXPECT_LT(SquaredDistanceNear(model, r, v, r.position[v]), 1e-20) << "vertex " << v << " has left the surface";
+    double before = 0, after = 0;
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        Remesh r = Coarse(model, 0, seed);
+        const double start = Stray(model, r);
+        Probes probes(model, r, meshes::Alone());
+        Approximation(model, r, probes, meshes::Alone()).Run(0.05, 6);
+        EXPECT_LT(Stray(model, r), start);
+        before += start;
+        after += Stray(model, r);
+        EXPECT_EQ(ResultCheck(model, r).fault, "");
+        for (int v = 0; v < r.VertexCount(); ++v)
+            EXPECT_LT(SquaredDistanceNear(model, r, v, r.position[v]), 1e-20)
+                << "vertex " << v << " has left the surface";
+    }
+    EXPECT_LT(after, 0.9 * before);
 }
 
 TEST(Approximation, WithoutWeightDoesNothing)

@@ -274,7 +274,7 @@ std::string WriteAtomically(const std::string &path, const std::function<std::st
 std::string WriteMesh(const std::string &path, Mesh &mesh)
 {
     const std::string extension = ExtensionOf(path);
-    const std::string spoilt = extension == "stl" ? FindStlFault(mesh) : "";
+    std::string spoilt = extension == "stl" ? FindStlFault(mesh) : "";
     if (!spoilt.empty())
         return spoilt;
     return WriteAtomically(path, [&](const std::string &temporary) -> std::string {
