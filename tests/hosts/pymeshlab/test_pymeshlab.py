@@ -4,9 +4,9 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
-import threading
 import xml.etree.ElementTree as tree
 
 import numpy
@@ -182,7 +182,9 @@ def test_transform_goes_to_the_new_layer():
     ms = load("sphere")
     ms.set_matrix(transformmatrix=numpy.diag([2.0, 3.0, 4.0, 1.0]), freeze=False)
     ms.apply_filter(FILTER, vertex_count=300)
-    assert numpy.allclose(ms.current_mesh().transform_matrix(), numpy.diag([2.0, 3.0, 4.0, 1.0]))
+    assert numpy.ptp(content(ms)[0][:, 2]) < 2.01, "the points stay as they are"
+    if hasattr(ms.current_mesh(), "transform_matrix"):
+        assert numpy.allclose(ms.current_mesh().transform_matrix(), numpy.diag([2.0, 3.0, 4.0, 1.0]))
 
 
 def test_default_count_is_the_current_one():
@@ -220,8 +222,7 @@ def test_density_from_vertex_quality():
     points, faces = content(ms)
     quality = numpy.where(points[:, 2] > 0, 4.0, 1.0)
     ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(points, faces, v_scalar_array=quality) if VERSION >= "2023" else
-                pymeshlab.Mesh(points, faces, v_quality_array=quality))
+    ms.add_mesh(pymeshlab.Mesh(points, faces, v_scalar_array=quality))
     ms.apply_filter(FILTER, vertex_count=1500, density="Vertex quality")
     upper = (content(ms)[0][:, 2] > 0).mean()
     assert 0.7 < upper < 0.87, "four times as many vertices above as below"
@@ -290,8 +291,7 @@ def test_bad_density_is_refused_with_the_count():
     quality[:3] = -1
     quality[3] = math.nan
     ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(points, faces, v_scalar_array=quality) if VERSION >= "2023" else
-                pymeshlab.Mesh(points, faces, v_quality_array=quality))
+    ms.add_mesh(pymeshlab.Mesh(points, faces, v_scalar_array=quality))
     refused(ms, r"\b4 ", vertex_count=50, density=2)
 
 
@@ -305,28 +305,27 @@ def test_empty_set_and_points_are_refused():
 
 
 def test_several_sets_at_once():
-    """Short runs, so that the threads are in every phase at the same time; two of them fail on purpose."""
-    reference = content(remesh("two_components", vertex_count=200, global_iterations=2)[0])
-    wrong = []
+    """In a process of its own: after a failure PyMeshLab leaves its output redirected, which threads do not bear."""
+    program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "threads.py")
+    run = subprocess.run([sys.executable, program, PLUGIN, os.path.join(SAMPLES, "two_components.ply")],
+                         capture_output=True, text=True, timeout=240, check=False)
+    assert run.returncode == 0 and run.stdout.split()[-2:] == ["60", "equal"], run.stdout + run.stderr
 
-    def work(k):
-        for turn in range(15):
-            try:
-                ms = load("two_components")
-                if k == 0 and turn % 3 == 0:
-                    with pytest.raises(pymeshlab.PyMeshLabException):
-                        ms.apply_filter(FILTER, vertex_count=1)
-                ms.apply_filter(FILTER, vertex_count=200, global_iterations=2)
-                if not all(numpy.array_equal(a, b) for a, b in zip(reference, content(ms))):
-                    wrong.append((k, turn, "another result"))
-            except BaseException as error:  # a thread's error would be lost
-                wrong.append((k, turn, repr(error)))
-    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
-    for t in threads:
-        t.start()
-    for t in threads:
-        t.join(timeout=240)
-    assert not any(t.is_alive() for t in threads) and not wrong
+
+def test_the_hosts_own_examples_pass_with_the_plugin_loaded(tmp_path):
+    """A copy of them, as they write beside themselves. Left out: one that counts the plugins, and two that end the
+    process without a display, with or without this plugin."""
+    copy = str(tmp_path / "host_tests")
+    shutil.copytree(os.path.join(os.path.dirname(pymeshlab.__file__), "tests"), copy)
+    with open(tmp_path / "ccdm_loaded.py", "w", encoding="utf-8") as out:
+        out.write(f"import pymeshlab\npymeshlab.load_plugin({PLUGIN!r})\n")
+    run = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "ccdm_loaded", copy,
+         "-o", "python_files=example_*.py test_*.py", "-o", "python_functions=example_* test_*",
+         "-k", "not number_plugins and not texture_map_defragmentation and not u3d"],
+        cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(tmp_path)}, capture_output=True, text=True, timeout=300,
+        check=False)
+    assert run.returncode == 0 and re.search(r"\b2\d passed", run.stdout), run.stdout[-3000:]
 
 
 @pytest.mark.parametrize("name", sorted(n for n in os.listdir(SCRIPTS) if n.endswith(".mlx")))
