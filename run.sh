@@ -10,8 +10,8 @@ usage: ./run.sh VERB
 
   demo    installs what is missing, builds, remeshes a sample through MeshLab's headless server,
           prints the quality before and after, and draws a picture (build/demo)
-  test    the same set-up, then every check and test
-  build   the command line, the plugin and the tests, in build/
+  test    the same set-up, then every check and test; with CCDM_ALL_HOSTS=1 in PyMeshLab 2022.2 too
+  build   the command line, a plugin for each MeshLab (2020.09, 2022.02, 2025.07) and the tests, in build/
   bench   the benchmarks (tests/bench), or one of them: bench hosts,
           bench scaling [--sizes N ...] [--repeats N],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
@@ -26,7 +26,7 @@ fail() { printf 'run.sh: %s\n' "$*" >&2; exit 1; }
 build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev libgtest-dev qtbase5-dev
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
-test_packages=(clang-format clang-tidy python3-pytest)
+test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0)
 # CGAL, Python's environments, and what the wheels of other remeshers link to.
 peer_packages=(libcgal-dev python3-venv libgl1 libopengl0 libglu1-mesa libgomp1 libxcursor1 libxft2 libxinerama1
     libxrender1)
@@ -52,40 +52,70 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# The tree that the plugin is compiled against: Debian's source tarball of the installed MeshLab, fetched
-# with private lists, so that the machine's own package sources stay as they are.
-sdk=$PWD/.sdk/meshlab-2020.09
+# The trees that the plugin is compiled against: Debian's source tarballs of MeshLab, fetched with private lists,
+# so that the machine's own package sources stay as they are. The first is the one that Debian 12 installs.
+sdks=(2020.09:bookworm 2022.02:trixie 2025.07:sid)
 fetch_sdk() {
+    local version=$1 suite=$2 sdk=$PWD/.sdk/meshlab-$1 state=$PWD/.sdk/state-$1
     [ ! -e "$sdk/.complete" ] || return 0
-    say "fetching the sources of MeshLab 2020.09 (12 MB) into .sdk"
-    local version=2020.09+dfsg1-2 state=$PWD/.sdk/state archive
+    say "fetching the sources of MeshLab $version into .sdk"
+    rm -rf "$state"
     mkdir -p "$state/lists/partial" "$state/cache/archives/partial"
     # The mirror that the machine uses already.
-    local mirror
+    local mirror package archive
     mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 2>/dev/null | grep -m1 'debian/*$' || true)
-    [ -n "$mirror" ] || fail "apt knows no Debian mirror to fetch MeshLab's sources from"
-    printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s bookworm main\n' \
-        "$mirror" >"$state/sources.list"
+    [ -n "$mirror" ] || { say "apt knows no Debian mirror to fetch MeshLab's sources from"; return 1; }
+    printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s %s main\n' \
+        "$mirror" "$suite" >"$state/sources.list"
     local options=(-o "Dir::Etc::sourcelist=$state/sources.list" -o Dir::Etc::sourceparts=- -o "Dir::State::lists=$state/lists"
         -o "Dir::Cache=$state/cache" -o APT::Sandbox::User= -qq)
-    apt-get "${options[@]}" update || fail "the package lists of MeshLab's sources could not be fetched"
-    (cd .sdk && apt-get "${options[@]}" source --tar-only "meshlab=$version" >/dev/null) ||
-        fail "the sources of MeshLab $version could not be fetched"
-    archive=.sdk/meshlab_${version%-*}.orig.tar.xz
+    apt-get "${options[@]}" update || { say "the package lists of Debian $suite could not be fetched"; return 1; }
+    package=$(apt-cache "${options[@]}" showsrc meshlab | sed -n "s/^Version: \($version.*\)/\1/p" | tail -1)
+    [ -n "$package" ] || { say "Debian $suite has no MeshLab $version"; return 1; }
+    (cd "$state" && apt-get "${options[@]}" source --tar-only "meshlab=$package" >/dev/null) ||
+        { say "the sources of MeshLab $package could not be fetched"; return 1; }
+    archive=$state/meshlab_${package%-*}.orig.tar.xz
+    rm -rf "$sdk"
     mkdir -p "$sdk"
-    tar -xf "$archive" -C "$sdk" --strip-components=1 --wildcards '*/src/common/*' '*/vcglib/*'
+    tar -xf "$archive" -C "$sdk" --strip-components=1 --wildcards '*/src/common/*' '*/vcglib/*' || return 1
     touch "$sdk/.complete"
-    rm -rf "$state" "$archive"
+    rm -rf "$state"
+}
+
+fetch_sdks() {
+    local entry
+    for entry in "${sdks[@]}"; do
+        fetch_sdk "${entry%:*}" "${entry#*:}" && continue
+        [ "$entry" != "${sdks[0]}" ] || fail "MeshLab's sources are needed"
+        say "no plugin for MeshLab ${entry%:*}"
+    done
+}
+
+# PyMeshLab in an environment of its own, build/venv-VERSION. Without it its tests are skipped.
+python_host() {
+    local version=$1 venv=build/venv-$1
+    shift
+    [ ! -e "$venv/.complete" ] || return 0
+    say "installing ${*} into $venv"
+    rm -rf "$venv"
+    mkdir -p build
+    if /usr/bin/python3 -m venv "$venv" && "$venv/bin/pip" install -q --disable-pip-version-check "$@"; then
+        touch "$venv/.complete"
+    else
+        rm -rf "$venv"
+        say "could not be installed: the tests in that host are skipped"
+    fi
 }
 
 build() {
     install_packages "${build_packages[@]}"
-    fetch_sdk
+    fetch_sdks
     say "building"
     cmake --preset default >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
     mkdir -p build && mv build-configure.log build/configure.log
+    grep '^-- Plugin for MeshLab' build/configure.log || true
     cmake --build --preset default -- -v >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
-    filter_ccdm/make_host_tree.sh build/host build/plugins/libfilter_ccdm.so
+    filter_ccdm/make_host_tree.sh build/host build/plugins/2020.09/libfilter_ccdm.so
 }
 
 # The host's server with our plugin, on a display of its own.
@@ -118,6 +148,8 @@ check_style() {
 
 run_tests() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}"
+    python_host 2025.07 pymeshlab==2025.7 numpy pytest
+    [ -z "${CCDM_ALL_HOSTS:-}" ] || python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     build
     check_style
     say "tests"

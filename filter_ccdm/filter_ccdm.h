@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef FILTER_CCDM_FILTER_CCDM_H
-#define FILTER_CCDM_FILTER_CCDM_H
+#ifndef FILTER_CCDM_H
+#define FILTER_CCDM_H
 
 #include <QObject>
 
 #include "host_api.h"
+#include "run_report.h"
 
-/// MeshLab's face of the remesher: names, parameters, one call, a report in the log.
+/// The remesher as a filter of MeshLab: names, parameters, one call, a report in the log. The host's versions
+/// differ in the signatures only; what they do is in Attempt().
 class FilterCcdmPlugin : public QObject, public CCDM_FILTER_BASE
 {
     Q_OBJECT
@@ -19,20 +21,44 @@ public:
     FilterCcdmPlugin();
 
     QString pluginName() const override;
-    QString filterName(FilterIDType id) const override;
-    QString filterInfo(FilterIDType id) const override;
+    QString filterName(int id) const override;
+    QString filterInfo(int id) const override;
+    CCDM_ARITY filterArity(CCDM_ACTION *) const override;
+    int getPreConditions(CCDM_ACTION *) const override;
+    int postCondition(CCDM_ACTION *) const override;
+#if CCDM_HOST_API == 2020
     FilterClass getClass(QAction *) override;
-    FILTER_ARITY filterArity(QAction *) const override;
-    int getPreConditions(QAction *) const override;
-    int postCondition(QAction *) const override;
     void initParameterSet(QAction *, MeshModel &layer, RichParameterList &parameters) override;
+    void initParameterSet(QAction *, MeshDocument &document, RichParameterList &parameters) override;
     bool applyFilter(QAction *, MeshDocument &document, const RichParameterList &parameters,
                      vcg::CallBackPos *progress) override;
+#else
+    QString vendor() const override;
+    QString pythonFilterName(int id) const override;
+    FilterClass getClass(const QAction *) const override;
+    RichParameterList initParameterList(const QAction *, const MeshModel &layer) override;
+    RichParameterList initParameterList(const QAction *, const MeshDocument &document) override;
+    std::map<std::string, QVariant> applyFilter(const QAction *, const RichParameterList &parameters,
+                                                MeshDocument &document, unsigned int &postConditionMask,
+                                                vcg::CallBackPos *progress) override;
+#endif
 
 private:
+    enum class Level { Plain, Warning };
+    struct Outcome {
+        bool done = false;
+        QString cause; // when it is not done; plain text
+        filter_ccdm::Outputs outputs;
+    };
+
+    /// A guarded Remesh(): no exception leaves it.
+    Outcome Attempt(MeshDocument &document, const RichParameterList &parameters, vcg::CallBackPos *progress);
+
     /// The filter proper; throws when there is no result, and has not touched the document then.
-    void remesh(MeshDocument &document, const RichParameterList &parameters, vcg::CallBackPos *progress);
-    bool _running = false;
+    filter_ccdm::Outputs Remesh(MeshDocument &document, const RichParameterList &parameters,
+                                vcg::CallBackPos *progress);
+
+    void Say(const QString &line, Level level = Level::Plain);
 };
 
 #endif

@@ -2,17 +2,11 @@
 #ifndef FILTER_CCDM_REMESH_LAYER_H
 #define FILTER_CCDM_REMESH_LAYER_H
 
-#include <stdexcept>
 #include <vector>
-
-#include <QString>
-#include <QStringList>
 
 #include <vcg/complex/complex.h>
 
-#include <vcg/complex/algorithms/ccdm/parameters.h>
-
-#include "host_api.h"
+#include "parameters.h"
 
 namespace filter_ccdm {
 
@@ -32,23 +26,21 @@ class Mesh : public vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>>
 {
 };
 
-/// A run that ended without a result; what() is plain text.
-struct Failure : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 /// Copies the live elements of a layer: positions, vertex quality, face-edge selection.
 void CopyFromLayer(const CMeshO &layer, Mesh &mesh);
 
 /// Replaces the content of a layer by a mesh and brings its box and normals up to date.
 void CopyToLayer(const Mesh &mesh, MeshModel &layer);
 
+/// Length of the diagonal of the bounding box of what the faces use.
+double Diagonal(const Mesh &mesh);
+
+/// Number of face edges that are selected, an edge that two faces have selected counted twice.
+int SelectedEdgeCount(const Mesh &mesh);
+
 /// Remeshes `input`. Throws Failure with the reason when there is no result.
 vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::Params &params,
                              vcg::CallBackPos *progress);
-
-/// The run as lines for the log: quality before and after, distance, topology, time, warnings.
-QStringList DescribeRun(const Mesh &input, const Mesh &result, const vcg::ccdm::Report &report, double seconds);
 
 } // namespace filter_ccdm
 

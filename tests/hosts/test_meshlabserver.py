@@ -16,10 +16,11 @@ SAMPLES = os.environ["CCDM_SAMPLES"]
 MESHES = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
 FILTER = "Remeshing: Isotropic CCDM (constrained centroidal Delaunay mesh)"
 # The order in which the filter declares its parameters: meshlabserver wants all of them, in it.
-DECLARED = [("vertex_count", "RichInt"), ("feature_angle", "RichFloat"), ("lambda", "RichFloat"),
-            ("global_iterations", "RichInt"), ("local_iterations", "RichInt"), ("density", "RichEnum"),
-            ("optimizer", "RichEnum"), ("min_angle", "RichFloat"),
-            ("selected_edges", "RichBool"), ("seed", "RichInt"), ("new_layer", "RichBool")]
+DECLARED = [("vertex_count", "RichInt"), ("edge_length", "RichFloat"), ("max_error", "RichFloat"),
+            ("feature_angle", "RichFloat"), ("selected_edges", "RichEnum"), ("density", "RichEnum"),
+            ("new_layer", "RichBool"), ("optimizer", "RichEnum"), ("global_iterations", "RichInt"),
+            ("local_iterations", "RichInt"), ("lambda", "RichFloat"), ("min_angle", "RichFloat"),
+            ("approximation", "RichFloat"), ("seed", "RichInt")]
 
 
 def script_names():
@@ -60,7 +61,12 @@ def test_shipped_script_runs(tmp_path, name):
     out = tmp_path / "o.ply"
     run = run_server(f"{SAMPLES}/cad_part.ply", os.path.join(SCRIPTS, name), out)
     assert run.returncode == 0, run.stdout[-2000:]
-    assert plyfile.count_ply(out)[0] == 5000
+    if name == "ccdm_max_error.mlx":
+        asked, reached = map(float, re.search(r"largest error / diagonal: asked (\S+), reached (\S+) in",
+                                              run.stdout).groups())
+        assert asked == 0.005 and reached <= asked
+    else:
+        assert plyfile.count_ply(out)[0] == 5000
     assert "topology preserved (Euler characteristic -2" in run.stdout
 
 
@@ -104,7 +110,10 @@ def test_density_curvature_and_in_place_or_new_layer(tmp_path):
     ({"vertex_count": 0}, "vertex_count must lie between 4"), ({"vertex_count": 3}, "vertex_count must lie between 4"),
     ({"feature_angle": 0}, "feature_angle must lie"), ({"lambda": 7}, "lambda must lie"),
     ({"global_iterations": -1}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
-    ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie")])
+    ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
+    ({"max_error": 200}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
+    ({"selected_edges": 3}, "selected_edges must lie"), ({"optimizer": -1}, "optimizer must lie"),
+    ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie")])
 def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
     out = tmp_path / "o.ply"
     run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, **changes), out)
@@ -127,7 +136,26 @@ def test_non_manifold_input_is_refused(tmp_path):
     assert not (tmp_path / "o.ply").exists()
 
 
-def test_exports_nothing_but_the_plugin_entry_points():
-    symbols = subprocess.run(["nm", "-D", "--defined-only", os.environ["CCDM_PLUGIN"]], capture_output=True, text=True,
-                             check=True).stdout
-    assert sorted(re.findall(r" [A-Za-z] (\S+)", symbols)) == ["qt_plugin_instance", "qt_plugin_query_metadata"]
+def test_no_mesh_is_refused(tmp_path):
+    server = os.path.join(os.environ["CCDM_HOST"], "bin", "meshlabserver")
+    run = subprocess.run(["xvfb-run", "-a", server, "-s", os.path.join(SCRIPTS, "ccdm_uniform.mlx"), "-o",
+                          str(tmp_path / "o.ply")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                         timeout=120, check=False)
+    assert run.returncode == 255 and "there is no current layer" in run.stdout
+
+
+def test_edge_length_in_percent_of_the_diagonal(tmp_path):
+    run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, edge_length=5, global_iterations=4), tmp_path / "o.ply")
+    assert run.returncode == 0
+    asked, reached = map(float, re.search(r"mean edge length: asked (\S+), reached (\S+) in", run.stdout).groups())
+    assert abs(reached / asked - 1) < 0.021
+
+
+def test_log_before_and_after(tmp_path):
+    run = run_server(f"{SAMPLES}/cad_part.ply", variant(tmp_path, vertex_count=800, selected_edges=1), tmp_path / "o.ply")
+    lines = [m[1] for m in re.finditer(r"^LOG: \d CCDM: (.*)$", run.stdout, re.M)]
+    assert lines[0] == "remeshing 178 vertices, 360 faces to 800 vertices; in place"
+    assert "edges that turn by more than 40 deg and the selected edges (0 sides" in lines[1]
+    assert "note: no face edge is selected" in lines
+    table = {tuple(line.rsplit(None, 2)) for line in lines}
+    assert ("vertices", "178", "800") in table and ("Euler characteristic", "-2", "-2") in table

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_report.h"
+
+#include <array>
+#include <utility>
+
+#include <vcg/complex/algorithms/ccdm/target_search.h>
+
+using vcg::ccdm::Params;
+using Quality = vcg::tri::MeshQuality<filter_ccdm::Mesh>;
+
+namespace filter_ccdm {
+
+Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
+    : report(std::move(r)), seconds(time), before(Quality::Measure(input)), after(Quality::Measure(result)),
+      distance(Quality::Distance(input, result))
+{
+}
+
+QStringList DescribePlan(const Mesh &input, const Settings &settings)
+{
+    const Params &p = settings.engine;
+    QString target;
+    if (settings.edgeLengthPercent)
+        target = QString("a mean edge length of %1 % of the diagonal").arg(*settings.edgeLengthPercent);
+    else if (p.maxError)
+        target = QString("an error of at most %1 % of the diagonal").arg(100 * *p.maxError);
+    else
+        target = QString("%1 vertices").arg(p.vertexCount);
+    QString features = p.featureAngle < 180 ? QString("edges that turn by more than %1 deg").arg(p.featureAngle)
+                                            : QString("boundaries only");
+    const int selected = p.useMarkedEdges ? SelectedEdgeCount(input) : 0;
+    if (p.useMarkedEdges)
+        features += QString(" and the selected edges (%1 sides of faces)").arg(selected);
+    static constexpr std::array<const char *, 3> densities = {"uniform", "by curvature", "by vertex quality"};
+    QStringList lines;
+    lines << QString("remeshing %1 vertices, %2 faces to %3; %4")
+                 .arg(input.VN())
+                 .arg(input.FN())
+                 .arg(target, settings.newLayer ? "into a new layer" : "in place");
+    lines << QString("features: %1; density: %2").arg(features, densities[static_cast<std::size_t>(p.density)]);
+    lines << QString("%1 optimizer, %2 x %3 iterations, lambda %4, smallest angle %5 deg, approximation %6, seed %7")
+                 .arg(p.optimizer == vcg::ccdm::OptimizerKind::Accelerated ? "accelerated" : "annealing")
+                 .arg(vcg::ccdm::GlobalIterations(p))
+                 .arg(p.localIterations)
+                 .arg(p.lambda)
+                 .arg(vcg::ccdm::MinAngle(p))
+                 .arg(p.approximation)
+                 .arg(p.seed);
+    return lines;
+}
+
+QStringList DescribeRun(const Measured &run)
+{
+    const vcg::ccdm::Report &report = run.report;
+    const auto &before = run.before, &after = run.after;
+    QStringList lines;
+    const auto line = [&](const QString &name, const QString &a, const QString &b) {
+        lines << name.leftJustified(36) + a.rightJustified(10) + b.rightJustified(10);
+    };
+    const auto row = [&](const char *name, double a, double b, int digits) {
+        line(name, QString::number(a, 'f', digits), QString::number(b, 'f', digits));
+    };
+    line("", "before", "after");
+    row("vertices", before.vertices - before.unreferenced, after.vertices, 0);
+    row("faces", before.faces, after.faces, 0);
+    row("Euler characteristic", before.euler, after.euler, 0);
+    row("boundary loops", before.boundaryLoops, after.boundaryLoops, 0);
+    row("average smallest angle (deg)", before.angleMinAvg, after.angleMinAvg, 2);
+    row("smallest angle (deg)", before.angleMin, after.angleMin, 2);
+    row("angles below 30 deg (%)", before.pctLt30, after.pctLt30, 3);
+    row("aspect ratio [FB99], average", before.qFb99Avg, after.qFb99Avg, 3);
+    row("interior vertices of valence 6 (%)", before.pctValence6, after.pctValence6, 1);
+    lines << QString("distance / diagonal: Hausdorff %1, RMS %2")
+                 .arg(run.distance.hausdorff, 0, 'e', 2)
+                 .arg(run.distance.rms, 0, 'e', 2);
+    lines << QString("topology %1 (Euler characteristic %2, %3 boundary loops, %4)")
+                 .arg(report.topologyPreserved ? "preserved" : "changed")
+                 .arg(report.resultTopology.euler)
+                 .arg(report.resultTopology.boundaryLoops)
+                 .arg(report.resultTopology.orientable ? "orientable" : "not orientable");
+    if (report.target != vcg::ccdm::TargetKind::Vertices)
+        lines << QString("%1: asked %2, reached %3%4 in %5 run(s)")
+                     .arg(report.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length"
+                                                                             : "largest error / diagonal")
+                     .arg(report.asked)
+                     .arg(report.reached)
+                     .arg(vcg::ccdm::TargetSearch::Met(report) ? "" : " (not met)")
+                     .arg(report.runs);
+    lines << QString("%1 feature curves, %2 corners; %3 of %4 global iterations accepted; %5 s")
+                 .arg(report.featureCurves)
+                 .arg(report.featureCorners)
+                 .arg(report.accepted)
+                 .arg(report.energy.empty() ? 0 : static_cast<int>(report.energy.size()) - 1)
+                 .arg(run.seconds, 0, 'f', 2);
+    return lines;
+}
+
+Outputs OutputsOf(const Measured &run)
+{
+    const vcg::ccdm::Report &report = run.report;
+    Outputs out;
+    // PyMeshLab passes on int, double and bool, nothing unsigned, long or text.
+    out["vertex_number"] = run.after.vertices;
+    out["face_number"] = run.after.faces;
+    out["extra_vertices"] = report.extraVertices;
+    out["average_smallest_angle"] = run.after.angleMinAvg;
+    out["smallest_angle"] = run.after.angleMin;
+    out["largest_angle"] = run.after.angleMax;
+    out["percent_angles_below_30"] = run.after.pctLt30;
+    out["triangles_below_min_angle"] = static_cast<int>(report.angles.below.size());
+    out["average_aspect_ratio"] = run.after.qFb99Avg;
+    out["smallest_aspect_ratio"] = run.after.qFb99Min;
+    out["percent_valence_6"] = run.after.pctValence6;
+    out["mean_edge_length"] = report.meanEdgeLength;
+    out["surface_area"] = run.after.area;
+    out["hausdorff"] = run.distance.hausdorff;
+    out["rms"] = run.distance.rms;
+    out["euler_characteristic_before"] = run.before.euler;
+    out["euler_characteristic_after"] = run.after.euler;
+    out["boundary_loops"] = run.after.boundaryLoops;
+    out["components"] = run.after.components;
+    out["topology_preserved"] = report.topologyPreserved;
+    out["target_met"] = vcg::ccdm::TargetSearch::Met(report);
+    out["energy_before"] = report.energy.empty() ? 0.0 : report.energy.front();
+    out["energy"] = report.energy.empty() ? 0.0 : report.energy.back();
+    out["iterations"] = report.energy.empty() ? 0 : static_cast<int>(report.energy.size()) - 1;
+    out["iterations_accepted"] = report.accepted;
+    out["feature_curves"] = report.featureCurves;
+    out["feature_corners"] = report.featureCorners;
+    out["warnings"] = static_cast<int>(report.warnings.size());
+    out["seconds"] = run.seconds;
+    return out;
+}
+
+} // namespace filter_ccdm
