@@ -2,6 +2,7 @@
 """Drives ccdm-batch as its users do: as a command, on folders of small meshes."""
 
 import csv
+import importlib.util
 import os
 import subprocess
 import sys
@@ -13,8 +14,9 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "python" / "ccdm_batch"
 sys.path[:0] = [str(ROOT / "tests" / "support"), str(PACKAGE)]
 
-pytest.importorskip("distributed", reason="dask.distributed is not installed")
-pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+# Without these there is nothing to collect, which is pytest's exit status 5.
+if not all(importlib.util.find_spec(name) for name in ("distributed", "pyarrow")):
+    collect_ignore_glob = ["test_*.py"]
 
 PROGRAM = os.environ.get("CCDM_REMESH", str(ROOT / "build" / "bin" / "ccdm_remesh"))
 PLUGIN = os.environ.get("CCDM_PYMESHLAB_PLUGIN", "")

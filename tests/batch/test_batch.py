@@ -143,6 +143,13 @@ def test_pymeshlab(batch):
         assert row[name] == other[name], name
     for name in ("angle_min_avg", "angle_min", "hausdorff", "rms", "pct_lt30"):
         assert float(row[name]) == pytest.approx(float(other[name]), rel=1e-3, abs=1e-9), name
+    for suffix in ("off", "obj", "stl"):
+        options = ["--plugin", PLUGIN, "--format", suffix, "--quiet"]
+        batch(*options, source=batch.inputs / "sheet.ply", program=None)
+        assert batch.rows()[f"sheet.{suffix}"]["vertices"] == "200"
+    assert "\nvn " not in (batch.output / "sheet.obj").read_text()
+    batch("--plugin", PLUGIN, "--set", "optimizer=best", program=None, expect=3)
+    assert (batch.rows()["sheet.ply"]["kind"], batch.rows()["book.off"]["kind"]) == ("usage", "usage")
     assert (
         "no parameter 'lamda'" in batch("--plugin", PLUGIN, "--set", "lamda=1", program=None, expect=2).stderr
     )

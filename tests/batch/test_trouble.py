@@ -12,7 +12,7 @@ import plyfile
 import psutil
 
 from conftest import local_cluster
-from test_restart import sleepers, statuses, wait_for
+from test_restart import ended, sleepers, statuses, wait_for
 
 BUMPY = plyfile.grid(12, height=0.02)
 
@@ -40,6 +40,7 @@ def test_hanging_engine_is_ended(batch, stub):
         4,
         "--retries",
         0,
+        workers=1,
         program=stub(f'if {this_one}; then echo half >"$2"; exec sleep 1000; fi'),
     )
     wait_for(lambda: sleepers(run.pid))
@@ -51,7 +52,7 @@ def test_hanging_engine_is_ended(batch, stub):
     assert run.returncode == 3, run.communicate()
     run.communicate()
     assert statuses(batch) == {"hangs.ply": "failed", "sheet.ply": "done"}
-    assert not seen and not any(p.is_running() for p in engines)
+    assert not seen and all(map(ended, engines))
 
 
 def test_crash_is_tried_again(batch, stub):
@@ -102,7 +103,7 @@ def test_killed_worker(batch, stub):
     assert run.returncode == 0, (output, errors)
     assert "6 meshes: 6 done" in output and errors == ""
     # Its engine did not outlive it, and the attempt that was lost is counted.
-    assert not any(p.is_running() for p in engines)
+    assert all(map(ended, engines))
     assert sorted(row["attempts"] for row in batch.rows().values()) == ["1"] * 5 + ["2"]
     assert len(batch.files()) == 12
 

@@ -189,9 +189,9 @@ def _run(options: argparse.Namespace, settings: Settings) -> int:
             for name in ("done", "kept", "failed", "not_run")
             if name != "not_run" or status == INTERRUPTED
         )
-        print(
-            f"{len(rows)} mesh{'' if len(rows) == 1 else 'es'}: {counts}; {time.monotonic() - start:.1f} s; table: {prefix}.csv, .parquet"
-        )
+        total = "1 mesh" if len(rows) == 1 else f"{len(rows)} meshes"
+        seconds = time.monotonic() - start
+        print(f"{total}: {counts}; {seconds:.1f} s; table: {prefix}.csv, .parquet")
     return SOME_FAILED if failed and status == DONE else status
 
 

@@ -17,7 +17,7 @@ STARTED = "ccdm-batch-started"
 
 
 def run_task(job: Dict[str, Any]) -> Dict[str, Any]:
-    """Does one job and returns its outcome: status, kind, reason, report, seconds. Never raises for a mesh."""
+    """Does one job and returns its outcome: status, kind, reason, report, seconds; never raises."""
     from distributed import get_worker
 
     worker = get_worker()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The engine that runs the filter in PyMeshLab, with the plugin loaded."""
 
+import keyword
 import os
 from pathlib import Path
 from typing import Any, Callable, Collection, Dict, Optional, Tuple
@@ -36,6 +37,10 @@ _PLACES: Dict[str, Tuple[str, ...]] = {
 }
 
 
+# The host would write normals that are not of unit length.
+_SAVE = {".off": {"save_vertex_normal": False}, ".obj": {"save_vertex_normal": False}}
+
+
 class PyMeshLabEngine:
     """Applies the filter `meshing_isotropic_ccdm` of the plugin file."""
 
@@ -46,9 +51,12 @@ class PyMeshLabEngine:
         self.threads = threads  # by OMP_NUM_THREADS, which the worker sets
 
     def check(self, further: Collection[str]) -> str:
-        _, mesh_set = self._load()
+        pymeshlab, mesh_set = self._load()
+        # The host lists the parameters only when there is a mesh.
+        triangle = ([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        mesh_set.add_mesh(pymeshlab.Mesh(*triangle))
         known = mesh_set.filter_parameter_values(FILTER)
-        unknown = sorted(set(further) - set(known))
+        unknown = sorted(name for name in further if _host_name(name) not in known)
         if unknown:
             raise Failure("usage", f"the filter {FILTER} has no parameter '{unknown[0]}'")
         from importlib import metadata
@@ -56,16 +64,16 @@ class PyMeshLabEngine:
         return metadata.version("pymeshlab")
 
     def remesh(self, source: Path, target: Path, parameters: Parameters, limit: float) -> Dict[str, Any]:
-        pymeshlab, mesh_set = self._load()
-        _call("unreadable", pymeshlab, mesh_set.load_new_mesh, str(source))
+        _, mesh_set = self._load()
+        _call("unreadable", mesh_set.load_new_mesh, str(source))
         mesh = mesh_set.current_mesh()
         if mesh.face_number() == 0:
             raise Failure("refused", "it has no faces")
         before = {"vertices": mesh.vertex_number(), "faces": mesh.face_number()}
         values = self._values(parameters, before["vertices"], mesh_set.filter_parameter_values(FILTER))
-        outputs = _call("refused", pymeshlab, mesh_set.apply_filter, FILTER, **values)
+        outputs = _call("refused", mesh_set.apply_filter, FILTER, **values)
         mesh = mesh_set.current_mesh()
-        _call("output", pymeshlab, mesh_set.save_current_mesh, str(target))
+        _call("output", mesh_set.save_current_mesh, str(target), **_SAVE.get(target.suffix, {}))
         if not target.exists():
             raise Failure("output", f"PyMeshLab wrote no {target.suffix.lstrip('.').upper()} file")
         report: Dict[str, Any] = {
@@ -87,7 +95,7 @@ class PyMeshLabEngine:
             raise Failure("engine", f"PyMeshLab cannot be imported: {error}") from error
         if self.plugin is None or not os.path.isfile(self.plugin):
             raise Failure("engine", f"there is no plugin file '{self.plugin}'")
-        _call("engine", pymeshlab, pymeshlab.load_plugin, self.plugin)
+        _call("engine", pymeshlab.load_plugin, self.plugin)
         mesh_set = pymeshlab.MeshSet(False)
         if FILTER not in pymeshlab.filter_list():
             raise Failure("engine", f"the plugin '{self.plugin}' has no filter {FILTER}")
@@ -103,15 +111,22 @@ class PyMeshLabEngine:
         values = {"vertex_count": parameters.vertex_count(vertices), "new_layer": False}
         for name, value in given.items():
             if value is not None:
-                values[name] = _as(defaults.get(name), value, name)
+                values[_host_name(name)] = _as(defaults.get(_host_name(name)), value, name)
         return values
+
+
+def _host_name(name: str) -> str:
+    """PyMeshLab's name of a parameter: `lambda` is a word of Python's."""
+    return name + "_" if keyword.iskeyword(name) else name
 
 
 def _as(default: Any, value: Any, name: str) -> Any:
     """The value in the type that PyMeshLab takes for this parameter."""
     if isinstance(value, str):
-        if isinstance(default, (bool, float)):
-            raise Failure("usage", f"{name} must be a {'truth value' if default in (0, 1) else 'number'}")
+        if isinstance(default, bool):
+            raise Failure("usage", f"{name} must be true or false, not '{value}'")
+        if isinstance(default, float):
+            raise Failure("usage", f"{name} must be a number, not '{value}'")
         return value.capitalize()  # a choice, by its name in the dialog
     if isinstance(default, bool):
         return bool(value)
@@ -120,11 +135,13 @@ def _as(default: Any, value: Any, name: str) -> Any:
     return value
 
 
-def _call(kind: str, pymeshlab: Any, function: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+def _call(kind: str, function: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
     """Calls the host; its exceptions become Failures with the message that matters."""
     try:
         return function(*arguments, **named)
-    except pymeshlab.PyMeshLabException as error:
+    except Exception as error:  # the host raises several kinds, which share no base of its own
+        if type(error).__name__.startswith("Invalid"):
+            kind = "usage"  # InvalidEnumException and the like
         text = str(error)
         for mark in ("Error details: ", "Details: "):
             text = text.rpartition(mark)[2]
