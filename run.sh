@@ -148,7 +148,8 @@ check_style() {
 
 run_tests() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}"
-    python_host 2025.07 pymeshlab==2025.7 numpy pytest
+    # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
+    python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
     [ -z "${CCDM_ALL_HOSTS:-}" ] || python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     build
     check_style
