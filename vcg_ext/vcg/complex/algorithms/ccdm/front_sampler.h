@@ -176,6 +176,7 @@ private:
 
     // Measured: gaps where fronts meet leave 2 to 6 percent too few points at the wanted spacing.
     static constexpr double FirstScale = 0.983;
+    static constexpr std::size_t MostJoined = 128; // faces looked at
 
     const ReferenceSurface &_surface;
     const FeatureGraph &_features;
@@ -185,7 +186,6 @@ private:
     double _scale = 1;
     std::vector<Keeper> _keeper;
     std::vector<Sample> _queue;
-    std::vector<int> _visited; // scratch of Joined
 
     double Spacing(const SurfacePoint &p) const
     {
@@ -202,33 +202,11 @@ private:
     {
         bool free = true;
         buckets.Near(p, radius, spacing, [&](int i, double) {
-            free = !Compatible(_keeper[i], normal) && !Joined(face, _keeper[i].face, p, radius);
+            // Faces whose normals differ may be on one sheet all the same, as in a crumpled spot.
+            free = !Compatible(_keeper[i], normal) && !_surface.Joined(face, _keeper[i].face, p, radius, MostJoined);
             return free;
         });
         return free;
-    }
-
-    // Whether two faces whose normals differ are on one sheet all the same, as in a crumpled spot: joined
-    // by faces that come within `radius` of p, without crossing a feature.
-    bool Joined(int from, int to, const Point &p, double radius)
-    {
-        constexpr std::size_t most = 128;
-        _visited.assign(1, from);
-        for (std::size_t k = 0; k < _visited.size() && _visited.size() < most; ++k) {
-            if (_visited[k] == to)
-                return true;
-            const Triangle &T = _surface.mesh.triangle[_visited[k]];
-            for (int e = 0; e < 3; ++e) {
-                if (T.n[e] == NoSide || T.Constrained(e))
-                    continue;
-                const Point &tail = _surface.position[T.v[Next(e)]];
-                const int next = SideTriangle(T.n[e]);
-                if (SegmentSquaredDistance(p, tail, _surface.position[T.v[Prev(e)]] - tail) < radius * radius &&
-                    std::find(_visited.begin(), _visited.end(), next) == _visited.end())
-                    _visited.push_back(next);
-            }
-        }
-        return false;
     }
 
     std::vector<SurfacePoint> Advance(const std::vector<CurveSample> &onCurves, int count, double scale, Random &random)
