@@ -18,7 +18,7 @@ FAST = ("--global-iterations", "3", "--quiet")
 def test_help_names_every_option(remesh):
     text = remesh("--help").stdout
     for option in ("--vertices", "--edge-length", "--max-error", "--feature-angle", "--lambda", "--global-iterations", "--local-iterations", "--density",
-                   "--density-exponent", "--approximation", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
+                   "--density-exponent", "--approximation", "--boundary", "--optimizer", "--sampler", "--seed", "--report", "--quiet", "--version"):
         assert option in text
     assert remesh("--version").stdout.startswith("ccdm_remesh ")
     assert "annealing" in text and "uniform" in text and "Target (exactly one)" in text
@@ -48,6 +48,18 @@ def test_choices_may_be_written_in_capitals(remesh, samples, tmp_path):
     assert remesh(f"{samples}/sphere.ply", tmp_path / "o.ply", "-n", 100, "--optimizer", "Annealing", "--report", report,
                   *FAST).returncode == 0
     assert json.loads(report.read_text())["parameters"]["optimizer"] == "annealing"
+
+
+def test_boundary_by_choice(remesh, samples, tmp_path):
+    report = tmp_path / "r.json"
+    corners = {}
+    for kind in ("sliding", "fixed", "smooth"):
+        assert remesh(f"{samples}/plate.ply", tmp_path / "o.ply", "-n", 600, "--boundary", kind, "--report", report,
+                      *FAST).returncode == 0
+        told = json.loads(report.read_text())
+        assert told["parameters"]["boundary"] == kind
+        corners[kind] = told["features"]["corners"]
+    assert corners["smooth"] < corners["sliding"] < corners["fixed"]
 
 
 def test_exact_vertex_count_and_table(remesh, samples, tmp_path):

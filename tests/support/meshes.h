@@ -93,7 +93,8 @@ inline vcg::ccdm::Model MakeModel(const shapes::Shape &s, int n, double featureA
     vcg::ccdm::MarkFeatures(model.surface, featureAngle, {});
     model.density =
         vcg::ccdm::MakeDensityField(model.surface, std::vector<double>(t.position.size(), 1.0), true, 0.2, n);
-    model.features = vcg::ccdm::FeatureTracer(model.surface, model.density.spacing, {}, 50).Trace();
+    model.features =
+        vcg::ccdm::FeatureTracer(model.surface, model.density.spacing, {}, vcg::ccdm::CornerRules{50}).Trace();
     return model;
 }
 

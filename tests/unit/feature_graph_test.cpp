@@ -15,7 +15,7 @@ FeatureGraph Graph(const shapes::Shape &s, double angle, double spacing, const S
     ReferenceSurface surface(t.position, t.face);
     MarkFeatures(surface, angle, marked);
     const std::vector<double> h(t.position.size(), spacing);
-    return FeatureTracer(surface, h, marked, 50).Trace();
+    return FeatureTracer(surface, h, marked, CornerRules{50}).Trace();
 }
 
 double TotalLength(const FeatureGraph &g)

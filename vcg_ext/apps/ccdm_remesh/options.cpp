@@ -20,12 +20,15 @@
 namespace ccdm_remesh {
 namespace {
 
+using vcg::ccdm::BoundaryKind;
 using vcg::ccdm::DensityKind;
 using vcg::ccdm::OptimizerKind;
 using vcg::ccdm::RelocationKind;
 using vcg::ccdm::SamplerKind;
 using vcg::ccdm::TargetKind;
 
+const std::map<std::string, BoundaryKind> boundaries = {
+    {"sliding", BoundaryKind::Sliding}, {"fixed", BoundaryKind::Fixed}, {"smooth", BoundaryKind::Smooth}};
 const std::map<std::string, DensityKind> densities = {
     {"uniform", DensityKind::Uniform}, {"curvature", DensityKind::Curvature}, {"quality", DensityKind::Quality}};
 const std::map<std::string, OptimizerKind> optimizers = {{"accelerated", OptimizerKind::Accelerated},
@@ -105,6 +108,9 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     AddNumber(app, "--feature-angle", p.featureAngle, {1e-6, 180, "above 0 up to 180"},
               "edges whose faces turn by more than this are kept as features, degrees, above 0 up to 180; 180: "
               "boundaries only (default: 40)");
+    AddChoice(app, "--boundary", p.boundary, boundaries,
+              "sliding (default): corners of the boundary stay, its other vertices are replaced; fixed: all of its "
+              "vertices stay; smooth: none, sharp turns are rounded off");
     AddChoice(app, "--optimizer", p.optimizer, optimizers, "accelerated (default), or annealing: the paper's");
     AddChoice(app, "--sampler", p.sampler, samplers,
               "front (default): laid out in hexagons; or random: drawn in proportion to the density");
@@ -218,6 +224,10 @@ int WrongUsage(const std::string &fault)
 
 } // namespace
 
+const char *NameOf(BoundaryKind k)
+{
+    return Lookup(boundaries, k);
+}
 const char *NameOf(DensityKind k)
 {
     return Lookup(densities, k);

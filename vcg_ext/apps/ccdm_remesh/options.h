@@ -17,6 +17,7 @@ struct Options {
 };
 
 /// Names of the enumerations as the command line and the report spell them.
+const char *NameOf(vcg::ccdm::BoundaryKind k);
 const char *NameOf(vcg::ccdm::DensityKind k);
 const char *NameOf(vcg::ccdm::OptimizerKind k);
 const char *NameOf(vcg::ccdm::RelocationKind k);

@@ -55,6 +55,7 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["lambda"] = p.lambda;
     j["global_iterations"] = GlobalIterations(p);
     j["local_iterations"] = p.localIterations;
+    j["boundary"] = NameOf(p.boundary);
     j["density"] = NameOf(p.density);
     j["density_exponent"] = DensityExponent(p);
     j["min_angle"] = MinAngle(p);

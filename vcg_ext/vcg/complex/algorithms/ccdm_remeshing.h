@@ -8,7 +8,7 @@
 
 #include <vcg/complex/complex.h>
 
-#include <vcg/complex/algorithms/ccdm/target_search.h>
+#include <vcg/complex/algorithms/ccdm/selection.h>
 
 namespace vcg {
 namespace tri {
@@ -26,18 +26,32 @@ public:
     using Params = ccdm::Params;
     using Report = ccdm::Report;
 
+    /// Where on the input the elements of a result lie; faces and vertices of the input are named by their places in
+    /// its vectors.
+    using Provenance = ccdm::Provenance;
+
     /// Remeshes `input` into `output`, which is replaced when the status is Done and left alone
     /// otherwise. Read are positions, and, when the parameters ask for them, vertex quality
-    /// (DensityKind::Quality) and face-edge selection (useMarkedEdges). Deleted elements are skipped.
+    /// (DensityKind::Quality), face-edge selection (useMarkedEdges) and face selection (selectedFacesOnly).
+    /// Deleted elements are skipped. The output has positions and faces only: attributes are looked up on the
+    /// input with `provenance`, which is filled when the status is Done and may be null.
     /// `progress` gets positions 0 to 100, never falling, and the phase's name; returning false cancels.
-    static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr)
+    static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr,
+                     Provenance *provenance = nullptr)
     {
+        const auto advance = [progress](int at, const char *phase) {
+            return progress == nullptr || progress(at, phase);
+        };
         ccdm::MeshTables result;
-        ccdm::TargetSearch search(
-            params, [progress](int at, const char *phase) { return progress == nullptr || progress(at, phase); });
-        Report report = search.Run(Import(input, params), result);
-        if (report.status == ccdm::Status::Done)
-            Export(result, output);
+        const ccdm::MeshTables tables = Import(input, params);
+        Report report = params.selectedFacesOnly
+                            ? ccdm::SelectionRemesher(params, advance).Run(tables, Selected(input), result, provenance)
+                            : ccdm::TargetSearch(params, advance).Run(tables, result, provenance);
+        if (report.status != ccdm::Status::Done)
+            return report;
+        if (provenance != nullptr)
+            SkipDeleted(input, *provenance);
+        Export(result, output);
         return report;
     }
 
@@ -89,6 +103,36 @@ private:
                 tables.marked.push_back(static_cast<std::uint8_t>(bits));
         }
         return tables;
+    }
+
+    static std::vector<char> Selected(const MeshType &m)
+    {
+        std::vector<char> selected;
+        for (const auto &f : m.face)
+            if (!f.IsD())
+                selected.push_back(static_cast<char>(f.IsS()));
+        return selected;
+    }
+
+    // From numbers that count live elements only.
+    static void SkipDeleted(const MeshType &m, Provenance &p)
+    {
+        const auto live = [](const auto &elements) {
+            std::vector<int> index;
+            for (std::size_t i = 0; i < elements.size(); ++i)
+                if (!elements[i].IsD())
+                    index.push_back(static_cast<int>(i));
+            return index;
+        };
+        const std::vector<int> vertex = live(m.vert), face = live(m.face);
+        for (int &v : p.sameVertex)
+            v = v < 0 ? v : vertex[v];
+        for (int &f : p.face)
+            f = face[f];
+        for (ccdm::SurfacePoint &at : p.vertex)
+            at.face = at.face < 0 ? at.face : face[at.face];
+        for (Provenance::SideCorner &c : p.onSides)
+            c.at.face = face[c.at.face];
     }
 
     static void Export(const ccdm::MeshTables &tables, MeshType &m)

@@ -17,6 +17,7 @@ struct FeatureCurve {
     std::vector<Side> side;  ///< a side of the reference surface for each segment
     std::vector<double> arc; ///< arc length from the first vertex to each vertex
     bool closed = false;
+    bool locked = false; ///< one edge that stays undivided
 
     int Segments() const { return static_cast<int>(side.size()); }
     double Length() const { return arc.back(); }
@@ -125,18 +126,27 @@ inline void MarkFeatures(ReferenceSurface &surface, double degrees, const SideMa
         }
 }
 
+/// What makes a vertex of a curve a corner, beside other than two feature edges that meet there.
+struct CornerRules {
+    /// The curve turns by more than this, as seen over half the spacing.
+    double degrees = 40;
+    /// Whether that goes for boundaries as well.
+    bool turnsOfBoundaries = true;
+    /// Every boundary vertex is a corner.
+    bool allOfBoundaries = false;
+    /// Boundary sides that become curves of their own, between two corners; empty: none.
+    SideMarks locked = {};
+};
+
 /// Turns the marks of a reference surface into curves and corners.
 class FeatureTracer
 {
 public:
     /// `spacing` is the wanted edge length at each reference vertex. Open chains that hang loose and
-    /// are shorter than it lose their marks, unless they are boundary or in `marked`. A vertex is a
-    /// corner where other than two feature edges meet, or where the curve turns by more than
-    /// `cornerDegrees` as seen over half the spacing.
+    /// are shorter than it lose their marks, unless they are boundary or in `marked`.
     FeatureTracer(ReferenceSurface &surface, const std::vector<double> &spacing, const SideMarks &marked,
-                  double cornerDegrees)
-        : _surface(surface), _mesh(surface.mesh), _spacing(spacing), _marked(marked),
-          _cornerAngle(cornerDegrees * Pi / 180)
+                  const CornerRules &rules)
+        : _surface(surface), _mesh(surface.mesh), _spacing(spacing), _marked(marked), _rules(rules)
     {
     }
 
@@ -159,7 +169,7 @@ private:
     Triangulation &_mesh;
     const std::vector<double> &_spacing;
     const SideMarks &_marked;
-    const double _cornerAngle;
+    const CornerRules &_rules;
     FeatureGraph _graph;
     std::vector<int> _first; // spokes of vertex v: _first[v] to _first[v + 1]
     std::vector<Spoke> _spoke;
@@ -199,6 +209,11 @@ private:
     {
         auto marked = [&](Side x) { return !_marked.empty() && ((_marked[SideTriangle(x)] >> SideEdge(x)) & 1); };
         return _mesh.Mate(s) != NoSide && !marked(s) && !marked(_mesh.Mate(s));
+    }
+
+    bool Locked(Side s) const
+    {
+        return !_rules.locked.empty() && ((_rules.locked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0;
     }
 
     double EdgeLength(Side s) const
@@ -275,6 +290,7 @@ private:
             step = _spoke[f].side == step.side ? _spoke[f + 1] : _spoke[f];
         }
         c.closed = c.vertex.front() == c.vertex.back() && !_isCorner[v];
+        c.locked = Locked(c.side.front());
         return c;
     }
 
@@ -283,9 +299,14 @@ private:
         _isCorner.assign(_mesh.VertexCount(), 0);
         for (int v = 0; v < _mesh.VertexCount(); ++v)
             _isCorner[v] = Degree(v) != 0 && Degree(v) != 2;
+        VisitFeatureEdges([&](Side s) {
+            if (_mesh.Mate(s) == NoSide && (_rules.allOfBoundaries || Locked(s)))
+                _isCorner[_mesh.Tail(s)] = _isCorner[_mesh.Head(s)] = 1;
+        });
         // First between junctions only; then the sharp turns of those runs become corners too.
         for (const FeatureCurve &c : CollectCurves())
-            FindTurns(c);
+            if (_rules.turnsOfBoundaries || _mesh.Mate(c.side.front()) != NoSide)
+                FindTurns(c);
         _graph.curve = CollectCurves();
         for (int v = 0; v < _mesh.VertexCount(); ++v)
             if (_isCorner[v])
@@ -333,7 +354,7 @@ private:
         }
         turn[last] = c.closed ? turn[0] : 0;
         for (int k = c.closed ? 0 : 1; k < last; ++k) {
-            if (turn[k] <= _cornerAngle)
+            if (turn[k] <= _rules.degrees * Pi / 180)
                 continue;
             const double window = 0.5 * _spacing[c.vertex[k]];
             bool sharpest = true;

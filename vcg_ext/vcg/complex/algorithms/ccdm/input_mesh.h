@@ -22,7 +22,8 @@ namespace ccdm {
 struct MeshTables {
     std::vector<Point> position;
     std::vector<std::array<int, 3>> face; ///< vertex indices
-    SideMarks marked;                     ///< one bit a side, opposite corner 0, 1, 2; empty: none
+    SideMarks marked;                     ///< features: one bit a side, opposite corner 0, 1, 2; empty: none
+    SideMarks locked;                     ///< the same: boundary sides that stay as they are, undivided
     std::vector<double> field;            ///< wanted density at each vertex; empty: none
 };
 
@@ -33,16 +34,20 @@ class InputMesh
 {
 public:
     MeshTables mesh;
-    Triangulation tables;      ///< of the mesh, glued; empty if the input is refused before
-    std::vector<int> original; ///< vertex of the caller's mesh for each vertex
+    Triangulation tables;          ///< of the mesh, glued; empty if the input is refused before
+    std::vector<int> original;     ///< vertex of the caller's mesh for each vertex
+    std::vector<int> originalFace; ///< face of the caller's mesh for each face
     InputDefects defects;
     TopologyCounts topology;
     std::string refusal; ///< why the input cannot be remeshed; empty if it can
 
     InputMesh(const MeshTables &input, Workers &workers)
     {
-        if (Select(input) && CheckEdges(workers) && CheckVertices(workers))
+        if (Select(input) && CheckEdges(workers) && CheckVertices(workers)) {
+            mesh.marked = Renumbered(input, input.marked);
+            mesh.locked = Renumbered(input, input.locked);
             CheckArea();
+        }
     }
     explicit InputMesh(const MeshTables &input) : InputMesh(input, *std::make_unique<Workers>(1)) {}
 
@@ -145,34 +150,42 @@ private:
         for (const int t : faces)
             order[fill[smallest(t)]++] = t;
         mesh.face.resize(faces.size());
-        std::vector<std::uint8_t> bits(faces.size(), 0);
         for (std::size_t k = 0; k < order.size(); ++k) {
             const auto &f = input.face[order[k]];
             int first = 0;
             while (newIndex[f[first]] != smallest(order[k]))
                 ++first;
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < 3; ++i)
                 mesh.face[k][i] = newIndex[f[(first + i) % 3]];
-                if (!input.marked.empty() && ((input.marked[order[k]] >> ((first + i) % 3)) & 1))
-                    bits[k] = static_cast<std::uint8_t>(bits[k] | (1U << i));
-            }
         }
         // Within the run of one first vertex, by the other two.
         std::vector<int> run;
         std::vector<std::array<int, 3>> sortedFace(faces.size());
-        std::vector<std::uint8_t> sortedBits(faces.size());
+        originalFace.resize(faces.size());
         for (std::size_t v = 0; v < original.size(); ++v) {
             run.resize(start[v + 1] - start[v]);
             std::iota(run.begin(), run.end(), start[v]);
             std::sort(run.begin(), run.end(), [&](int a, int b) { return mesh.face[a] < mesh.face[b]; });
             for (std::size_t k = 0; k < run.size(); ++k) {
                 sortedFace[start[v] + k] = mesh.face[run[k]];
-                sortedBits[start[v] + k] = bits[run[k]];
+                originalFace[start[v] + k] = order[run[k]];
             }
         }
         mesh.face.swap(sortedFace);
-        if (!input.marked.empty())
-            mesh.marked.swap(sortedBits);
+    }
+
+    // Marks of the caller's sides on the faces as they are numbered now.
+    SideMarks Renumbered(const MeshTables &input, const SideMarks &marks) const
+    {
+        SideMarks own(marks.empty() ? 0 : mesh.face.size(), 0);
+        for (std::size_t t = 0; t < own.size(); ++t) {
+            const int from = originalFace[t];
+            for (int i = 0; i < 3; ++i)
+                for (int k = 0; k < 3; ++k)
+                    if (input.face[from][k] == original[mesh.face[t][i]] && ((marks[from] >> k) & 1))
+                        own[t] = static_cast<std::uint8_t>(own[t] | (1U << i));
+        }
+        return own;
     }
 
     // The faces are in the order of their first vertices, which are their lowest.
@@ -299,10 +312,6 @@ private:
                 continue;
             any = true;
             std::swap(mesh.face[t][1], mesh.face[t][2]);
-            if (!mesh.marked.empty()) {
-                const unsigned b = mesh.marked[t];
-                mesh.marked[t] = static_cast<std::uint8_t>((b & 1U) | (b & 2U) << 1 | (b & 4U) >> 1);
-            }
         }
         return any;
     }

@@ -40,6 +40,13 @@ enum class SamplerKind {
     Front   ///< laid out in hexagons by an advancing front
 };
 
+/// What becomes of the boundary.
+enum class BoundaryKind {
+    Sliding, ///< its corners stay, its other vertices are replaced by new ones along it
+    Fixed,   ///< each of its vertices stays; new ones come between them where they are further apart than the spacing
+    Smooth   ///< none of its vertices need stay: sharp turns are rounded off
+};
+
 /// What a run is asked to reach.
 enum class TargetKind {
     Vertices,   ///< a number of vertices
@@ -62,6 +69,10 @@ struct Params {
     double featureAngle = 40.0;
     /// Takes the edges that the caller has marked as features in addition to those found by angle.
     bool useMarkedEdges = false;
+    BoundaryKind boundary = BoundaryKind::Sliding;
+    /// Remeshes the selected faces only; all other vertices and faces stay as they are, and so do the edges between
+    /// the two parts. The vertex count is that of the whole result; errors and lengths are about the remeshed part.
+    bool selectedFacesOnly = false;
     /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
     /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
     double lambda = 0.2;
@@ -240,6 +251,7 @@ struct Report {
     int runs = 0;       ///< remeshings that it took; `seconds` is their sum, the rest is about the last that counts
     double meanEdgeLength = 0; ///< of the result, in the mesh's units
 
+    int keptVertices = 0;      ///< that were not remeshed, as they do not belong to the selected faces
     int requestedVertices = 0; ///< asked for, or derived from another target
     /// Vertices beyond the requested ones, forced by topology or by features; 0 in the normal case.
     int extraVertices = 0;

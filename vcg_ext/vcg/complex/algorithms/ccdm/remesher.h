@@ -16,6 +16,7 @@
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
 #include <vcg/complex/algorithms/ccdm/input_mesh.h>
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
+#include <vcg/complex/algorithms/ccdm/provenance.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
 #include <vcg/complex/algorithms/ccdm/surface_offset.h>
 #include <vcg/complex/algorithms/ccdm/thin_parts.h>
@@ -36,10 +37,10 @@ public:
     {
     }
 
-    /// `output` is filled only when the report's status is Done.
-    Report Run(const MeshTables &input, MeshTables &output)
+    /// `output` and, if there is one, `provenance` are filled only when the report's status is Done.
+    Report Run(const MeshTables &input, MeshTables &output, Provenance *provenance = nullptr)
     {
-        Stages(input, output);
+        Stages(input, output, provenance);
         return std::move(_report);
     }
 
@@ -53,7 +54,7 @@ private:
     const char *_phase = "";
     int _from = 0, _to = 0, _last = -1;
 
-    bool Stages(const MeshTables &input, MeshTables &output)
+    bool Stages(const MeshTables &input, MeshTables &output, Provenance *provenance)
     {
         if (!CheckParams())
             return false;
@@ -82,7 +83,10 @@ private:
         if (!AttemptAll(model, remesh))
             return false;
         Certify(model, remesh, thin, prepared);
-        WriteBack(prepared, remesh, output);
+        const ProvenanceFinder finder(model, remesh, prepared, input);
+        if (provenance != nullptr)
+            *provenance = finder.Run(_workers);
+        WriteBack(prepared, remesh, finder, input, output);
         _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
         return true;
@@ -323,7 +327,11 @@ private:
                                          DensityExponent(_params), _params.vertexCount);
         FalseCreases falseCreases(surface, model.density.spacing, marked, _params.featureAngle);
         const int dropped = falseCreases.Drop();
-        model.features = FeatureTracer(surface, model.density.spacing, marked, CornerAngle).Trace();
+        CornerRules rules;
+        rules.turnsOfBoundaries = _params.boundary != BoundaryKind::Smooth;
+        rules.allOfBoundaries = _params.boundary == BoundaryKind::Fixed;
+        rules.locked = input.locked;
+        model.features = FeatureTracer(surface, model.density.spacing, marked, rules).Trace();
         _report.featureCurves = static_cast<int>(model.features.curve.size());
         _report.featureCorners = static_cast<int>(model.features.corner.size());
         _report.prunedFragments = dropped + model.features.pruned;
@@ -378,7 +386,7 @@ private:
         // Refined, a curve has an even number of edges, which must not get much too short; creases are better met at
         // full resolution.
         for (const FeatureCurve &c : model.features.curve) {
-            if (model.surface.mesh.Mate(c.side.front()) != NoSide)
+            if (c.locked || model.surface.mesh.Mate(c.side.front()) != NoSide)
                 return 0;
             double length = 0;
             for (int k = 0; k < c.Segments(); ++k)
@@ -468,12 +476,16 @@ private:
         }
     }
 
-    static void WriteBack(const InputMesh &prepared, const Remesh &remesh, MeshTables &output)
+    // What stays where it was gets its coordinates back to the last bit.
+    static void WriteBack(const InputMesh &prepared, const Remesh &remesh, const ProvenanceFinder &finder,
+                          const MeshTables &input, MeshTables &output)
     {
         MeshTables result;
         result.position.reserve(remesh.position.size());
-        for (const Point &p : remesh.position)
-            result.position.push_back(prepared.Restore(p));
+        for (int v = 0; v < remesh.VertexCount(); ++v) {
+            const int same = finder.SameVertex(v);
+            result.position.push_back(same < 0 ? prepared.Restore(remesh.position[v]) : input.position[same]);
+        }
         result.face.reserve(remesh.mesh.triangle.size());
         for (const Triangle &T : remesh.mesh.triangle)
             result.face.push_back({T.v[0], T.v[1], T.v[2]});
@@ -519,8 +531,6 @@ private:
             _progress(100, "done"); // nothing is left to cancel
     }
 
-    /// A curve that turns by more than this within one spacing has a corner there, in degrees.
-    static constexpr double CornerAngle = 40;
     static constexpr double AngleSlack = 0.05; // degrees
     /// Fewest vertices of a mesh that is to be refined.
     static constexpr int LeastCoarse = 1000;

@@ -71,6 +71,8 @@ inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, co
     std::vector<CurveSample> samples;
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const FeatureCurve &c = features.curve[i];
+        if (c.locked)
+            continue;
         const auto range = std::equal_range(sorted.begin(), sorted.end(), ends[i]);
         SampleCurve(density, c, static_cast<int>(i),
                     FewestSegments(c, surface.position, range.second - range.first > 1), stretch, samples);

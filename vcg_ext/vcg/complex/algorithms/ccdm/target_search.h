@@ -62,8 +62,59 @@ public:
 
     TargetSearch(const Params &params, Progress progress) : _params(params), _progress(std::move(progress)) {}
 
-    /// `output` is filled only when the report's status is Done.
-    Report Run(const MeshTables &input, MeshTables &output)
+    /// `output` and, if there is one, `provenance` are filled only when the report's status is Done.
+    Report Run(const MeshTables &input, MeshTables &output, Provenance *provenance = nullptr)
+    {
+        _wantsProvenance = provenance != nullptr;
+        Result result;
+        Report report = Search(input, result);
+        if (report.status == Status::Done) {
+            output = std::move(result.mesh);
+            if (provenance != nullptr)
+                *provenance = std::move(result.provenance);
+        }
+        return report;
+    }
+
+    /// Whether a run has reached what was asked for, an edge length to 2 percent.
+    static bool Met(const Report &r)
+    {
+        if (r.status != Status::Done)
+            return false;
+        switch (r.target) {
+        case TargetKind::Vertices:
+            return r.reached == r.asked;
+        case TargetKind::EdgeLength:
+            return std::abs(r.reached / r.asked - 1) <= EdgeTolerance;
+        case TargetKind::MaxError:
+            return r.reached <= r.asked;
+        }
+        return false;
+    }
+
+    /// Whether a face has an index that is none of a vertex.
+    static bool NamesMissingVertices(const MeshTables &input)
+    {
+        const auto vertices = static_cast<int>(input.position.size());
+        return std::any_of(input.face.begin(), input.face.end(), [&](const auto &f) {
+            return std::any_of(f.begin(), f.end(), [&](int v) { return v < 0 || v >= vertices; });
+        });
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const Params _params;
+    const Progress _progress;
+    int _runs = 0, _last = 0;
+    std::vector<std::pair<std::string, double>> _seconds; // of all runs
+    bool _wantsProvenance = false;
+
+    struct Result {
+        MeshTables mesh;
+        Provenance provenance;
+    };
+
+    Report Search(const MeshTables &input, Result &output)
     {
         const bool one =
             (_params.vertexCount != 0) + _params.edgeLength.has_value() + _params.maxError.has_value() == 1;
@@ -95,37 +146,14 @@ public:
         return report;
     }
 
-    /// Whether a run has reached what was asked for, an edge length to 2 percent.
-    static bool Met(const Report &r)
-    {
-        if (r.status != Status::Done)
-            return false;
-        switch (r.target) {
-        case TargetKind::Vertices:
-            return r.reached == r.asked;
-        case TargetKind::EdgeLength:
-            return std::abs(r.reached / r.asked - 1) <= EdgeTolerance;
-        case TargetKind::MaxError:
-            return r.reached <= r.asked;
-        }
-        return false;
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    const Params _params;
-    const Progress _progress;
-    int _runs = 0, _last = 0;
-    std::vector<std::pair<std::string, double>> _seconds; // of all runs
-
     // One remeshing, which takes the progress from where it stands to `to`.
-    Report One(const MeshTables &input, const Params &params, int to, MeshTables &output)
+    Report One(const MeshTables &input, const Params &params, int to, Result &output)
     {
         ++_runs;
         const int from = _last;
         Report report = Remesher(params, [&](int at, const char *phase) {
                             return Advance(from + (to - from) * at / 100, at == 100 && to < 100 ? "measuring" : phase);
-                        }).Run(input, output);
+                        }).Run(input, output.mesh, _wantsProvenance ? &output.provenance : nullptr);
         for (const auto &s : report.seconds)
             AddSeconds(s.first, s.second);
         return report;
@@ -147,14 +175,6 @@ private:
         _seconds.emplace_back(phase, seconds);
     }
 
-    static bool NamesMissingVertices(const MeshTables &input)
-    {
-        const auto vertices = static_cast<int>(input.position.size());
-        return std::any_of(input.face.begin(), input.face.end(), [&](const auto &f) {
-            return std::any_of(f.begin(), f.end(), [&](int v) { return v < 0 || v >= vertices; });
-        });
-    }
-
     static Report Fail(Report report, Status status, const std::string &why)
     {
         report.status = status;
@@ -171,11 +191,11 @@ private:
 
     // The closed formula is right where the remesh has about the input's area. A rough surface loses area to
     // the chords: then the count is put right by what was measured, once.
-    Report ForEdgeLength(const MeshTables &input, MeshTables &output)
+    Report ForEdgeLength(const MeshTables &input, Result &output)
     {
         const double length = *_params.edgeLength;
-        MeshTables mesh;
-        Report report = One(input, _params, 90, mesh);
+        Result first;
+        Report report = One(input, _params, 90, first);
         if (report.status != Status::Done)
             return report;
         const auto off = [&](const Report &r) { return std::abs(r.meanEdgeLength / length - 1); };
@@ -185,13 +205,13 @@ private:
             const double share = report.meanEdgeLength / length;
             params.vertexCount = std::max(4, static_cast<int>(std::lround(report.requestedVertices * share * share)));
             if (params.vertexCount != report.requestedVertices && report.extraVertices == 0) {
-                MeshTables second;
+                Result second;
                 Report again = One(input, params, 99, second);
                 if (again.status == Status::Cancelled)
                     return again;
                 if (again.status == Status::Done && off(again) < off(report)) {
                     report = std::move(again);
-                    mesh = std::move(second);
+                    first = std::move(second);
                 }
             }
         }
@@ -200,7 +220,7 @@ private:
                 "the edge length asked for was not reached: the mean is " + Text(report.meanEdgeLength) +
                 " instead of " + Text(length) +
                 (report.requestedVertices <= 4 || report.extraVertices > 0 ? ", as fewer vertices cannot be had" : ""));
-        output = std::move(mesh);
+        output = std::move(first);
         return report;
     }
 
@@ -214,7 +234,7 @@ private:
 
     // Runs with few iterations until the error comes near, then full ones, of which that with the fewest
     // vertices is handed out.
-    Report ForMaxError(const MeshTables &input, MeshTables &output)
+    Report ForMaxError(const MeshTables &input, Result &output)
     {
         const double bound = *_params.maxError;
         if (!(bound > 0 && bound <= 1))
@@ -225,7 +245,7 @@ private:
         std::optional<ErrorMeter> meter;
         std::vector<Trial> trials;
         std::optional<Report> best;
-        MeshTables bestMesh;
+        Result bestResult;
         Report last;
         int n = static_cast<int>(std::clamp(1 / bound, 30.0, std::clamp(2 * inputs, 100.0, MostFirst)));
         bool full = GlobalIterations(_params) <= TrialIterations;
@@ -235,14 +255,14 @@ private:
             params.vertexCount = n;
             if (!full)
                 params.globalIterations = TrialIterations;
-            MeshTables mesh;
-            last = One(input, params, _last + (99 - _last) * 3 / 10, mesh);
+            Result result;
+            last = One(input, params, _last + (99 - _last) * 3 / 10, result);
             Trial trial = {n, std::numeric_limits<double>::infinity(), full, last.extraVertices > 0};
             if (last.status == Status::Done) {
                 const Clock::time_point start = Clock::now();
                 if (!meter)
                     meter.emplace(input);
-                trial.error = meter->Measure(mesh, workers);
+                trial.error = meter->Measure(result.mesh, workers);
                 AddSeconds("measuring the distance", std::chrono::duration<double>(Clock::now() - start).count());
             } else if (last.status != Status::CheckFailed) {
                 return last;
@@ -251,7 +271,7 @@ private:
             if (full && Passes(trial, bound) && (!best || n < best->requestedVertices)) {
                 last.reached = trial.error;
                 best = last;
-                bestMesh = std::move(mesh);
+                bestResult = std::move(result);
             }
             const int next = NextCount(trials, bound, most);
             if (next == 0)
@@ -263,7 +283,7 @@ private:
         }
         if (!best)
             return NotReached(std::move(last), trials, bound);
-        output = std::move(bestMesh);
+        output = std::move(bestResult);
         return std::move(*best);
     }
 

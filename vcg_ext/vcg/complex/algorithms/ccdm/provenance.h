@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef VCG_CCDM_PROVENANCE_H
+#define VCG_CCDM_PROVENANCE_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <vcg/complex/algorithms/ccdm/input_mesh.h>
+#include <vcg/complex/algorithms/ccdm/remesh.h>
+
+namespace vcg {
+namespace ccdm {
+
+/// Where the elements of a result lie on the input: what attributes are looked up with. Faces and vertices of the
+/// input by their indices, weights in the order of the input face's vertices.
+struct Provenance {
+    /// The corner of a result face as it is seen from that face, where a feature passes through the vertex.
+    struct SideCorner {
+        int face = 0;   ///< of the result
+        int corner = 0; ///< 0 to 2
+        SurfacePoint at;
+    };
+
+    std::vector<SurfacePoint>
+        vertex;                      ///< one for each result vertex; face -1: a vertex that no face uses was left as is
+    std::vector<int> sameVertex;     ///< the input vertex that a result vertex is, such as a corner; -1: it is new
+    std::vector<int> face;           ///< for each result face the input face that lies under its centroid
+    std::vector<SideCorner> onSides; ///< by face; no entry: the vertex's own point will do
+    int keptVertices = 0;            ///< the first of the result were not remeshed
+    int keptFaces = 0;               ///< the same; their corners are those of the input face, in its order
+
+    /// The input's point at a corner of a result face, on that face's side of all features: where attributes have a
+    /// seam along a feature, this is the side to look them up on.
+    SurfacePoint Corner(int resultFace, int corner, int itsVertex) const
+    {
+        const auto key = std::pair(resultFace, corner);
+        const auto found =
+            std::lower_bound(onSides.begin(), onSides.end(), key,
+                             [](const SideCorner &a, const auto &b) { return std::pair(a.face, a.corner) < b; });
+        return found != onSides.end() && std::pair(found->face, found->corner) == key ? found->at : vertex[itsVertex];
+    }
+};
+
+/// Finds the provenance of a finished remesh.
+class ProvenanceFinder
+{
+public:
+    ProvenanceFinder(const Model &model, const Remesh &remesh, const InputMesh &prepared, const MeshTables &input)
+        : _model(model), _surface(model.surface), _remesh(remesh), _prepared(prepared), _input(input)
+    {
+    }
+
+    Provenance Run(Workers &workers) const
+    {
+        Provenance p;
+        const int vertices = _remesh.VertexCount(), triangles = _remesh.mesh.TriangleCount();
+        p.vertex.resize(vertices);
+        p.sameVertex.assign(vertices, -1);
+        p.face.resize(triangles);
+        Chunks::For(workers, vertices, [&](int first, int last, int) {
+            for (int v = first; v < last; ++v) {
+                p.vertex[v] = Caller(OnFace(_remesh.place[v].face, v));
+                p.sameVertex[v] = SameVertex(v);
+            }
+        });
+        std::vector<std::vector<Provenance::SideCorner>> found(Chunks::Count(triangles));
+        Chunks::For(workers, triangles, [&](int first, int last, int chunk) {
+            for (int t = first; t < last; ++t)
+                p.face[t] = _prepared.originalFace[Under(t, found[chunk])];
+        });
+        for (const auto &some : found)
+            p.onSides.insert(p.onSides.end(), some.begin(), some.end());
+        return p;
+    }
+
+    /// The caller's vertex that a corner is; -1 for any other vertex.
+    int SameVertex(int v) const
+    {
+        const int r = ReferenceVertex(v);
+        return r < 0 ? -1 : _prepared.original[r];
+    }
+
+private:
+    const Model &_model;
+    const ReferenceSurface &_surface;
+    const Remesh &_remesh;
+    const InputMesh &_prepared;
+    const MeshTables &_input;
+
+    // Corners stay where they are, to the last bit.
+    int ReferenceVertex(int v) const
+    {
+        if (_remesh.place[v].kind != VertexKind::Corner)
+            return -1;
+        for (const int r : _surface.mesh.triangle[_remesh.place[v].face].v)
+            if (_surface.position[r] == _remesh.position[v])
+                return r;
+        return -1;
+    }
+
+    SurfacePoint OnFace(int face, int v) const
+    {
+        const Foot foot = _surface.NearestOn(face, _remesh.position[v]);
+        return {face, {foot.weight[0], foot.weight[1], foot.weight[2]}};
+    }
+
+    // In the caller's numbering of faces and corners.
+    SurfacePoint Caller(const SurfacePoint &p) const
+    {
+        SurfacePoint q;
+        q.face = _prepared.originalFace[p.face];
+        const auto &corner = _input.face[q.face];
+        for (int i = 0; i < 3; ++i) {
+            const int v = _prepared.original[_surface.mesh.triangle[p.face].v[i]];
+            q.weight[std::find(corner.begin(), corner.end(), v) - corner.begin()] = p.weight[i];
+        }
+        return q;
+    }
+
+    // The reference faces at a vertex, on every side of the features that it lies on.
+    void FacesAt(int v, std::vector<int> &faces) const
+    {
+        const Place &place = _remesh.place[v];
+        const Triangulation &m = _surface.mesh;
+        faces.assign(1, place.face);
+        if (place.kind == VertexKind::Curve) {
+            const FeatureCurve &c = _model.features.curve[place.curve];
+            const Side s = c.side[c.SegmentAt(place.s, place.segment)];
+            faces[0] = SideTriangle(s);
+            if (m.Mate(s) != NoSide)
+                faces.push_back(SideTriangle(m.Mate(s)));
+        }
+        const int corner = ReferenceVertex(v);
+        if (corner < 0)
+            return;
+        faces.clear();
+        Star star;
+        m.GatherStar(corner, star);
+        for (const Side s : star.corner)
+            faces.push_back(SideTriangle(s));
+    }
+
+    // The reference face under the centroid of a triangle. On the way the corners that lie on features are put on
+    // the triangle's side of them.
+    int Under(int t, std::vector<Provenance::SideCorner> &sides) const
+    {
+        const Triangle &T = _remesh.mesh.triangle[t];
+        const Point centroid = (_remesh.position[T.v[0]] + _remesh.position[T.v[1]] + _remesh.position[T.v[2]]) / 3;
+        double least = std::numeric_limits<double>::infinity();
+        int under = -1;
+        std::vector<int> faces;
+        for (int k = 0; k < 3; ++k) {
+            const int v = T.v[k];
+            if (_remesh.place[v].kind == VertexKind::Free) {
+                Look(_remesh.place[v].face, v, centroid, least, under);
+                continue;
+            }
+            FacesAt(v, faces);
+            // From the right side the way to the centroid crosses no feature. Around the loose end of a feature
+            // both sides lead there: then the side whose face is nearer at the start.
+            int best = faces.front();
+            std::pair<double, double> bestWay(std::numeric_limits<double>::infinity(), 0);
+            for (const int face : faces) {
+                const double reach = SquaredNorm(_remesh.position[v] - centroid);
+                const double end = _surface.Project(face, _remesh.position[v], centroid, 0).second.squaredDistance;
+                // To a thousandth of the way, so that rounding does not decide between faces of one side.
+                const std::pair<double, double> way(std::floor(1e3 * std::sqrt(end / reach)),
+                                                    _surface.NearestOn(face, centroid).squaredDistance);
+                if (way < bestWay) {
+                    bestWay = way;
+                    best = face;
+                }
+            }
+            sides.push_back({t, k, Caller(OnFace(best, v))});
+            Look(best, v, centroid, least, under);
+        }
+        return under;
+    }
+
+    void Look(int from, int v, const Point &centroid, double &least, int &under) const
+    {
+        const auto [face, foot] = _surface.Project(from, _remesh.position[v], centroid, 0);
+        if (foot.squaredDistance < least) {
+            least = foot.squaredDistance;
+            under = face;
+        }
+    }
+};
+
+} // namespace ccdm
+} // namespace vcg
+
+#endif
