@@ -22,7 +22,9 @@ def main():
         return 1
     os.makedirs(folder, exist_ok=True)
     height = HEIGHT_OF_REST + HEIGHT_OF_ROW * len(ccdm.LABELS)
-    with desktop.Desktop((1500, max(900, height + 100))) as screen:
+    screen_height = max(900, height + 100)
+    # So wide that the mesh, whose size goes by the height of a view, fits into half of it.
+    with desktop.Desktop((int(1.6 * screen_height), screen_height)) as screen:
         import accessible  # connects to the bus of the environment
         accessible.start()
         import pictures
