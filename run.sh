@@ -16,6 +16,8 @@ usage: ./run.sh VERB
           bench scaling [--sizes N ...] [--repeats N],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
+  screenshots
+          the pictures of MeshLab's window in filter_ccdm/pictures, taken anew
   clean   removes what was built; --all: the fetched MeshLab sources too
 TEXT
 }
@@ -27,6 +29,8 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
 test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0)
+# What drives MeshLab's window.
+window_packages=(xvfb openbox xdotool imagemagick x11-utils dbus at-spi2-core gir1.2-atspi-2.0 python3-gi python3-numpy)
 # CGAL, Python's environments, and what the wheels of other remeshers link to.
 peer_packages=(libcgal-dev python3-venv libgl1 libopengl0 libglu1-mesa libgomp1 libxcursor1 libxft2 libxinerama1
     libxrender1)
@@ -147,7 +151,7 @@ check_style() {
 }
 
 run_tests() {
-    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}"
+    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${window_packages[@]}"
     # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
     python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
     [ -z "${CCDM_ALL_HOSTS:-}" ] || python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
@@ -156,6 +160,12 @@ run_tests() {
     say "tests"
     [ -d ../shared/meshes ] || say "../shared/meshes is not there: the tests on real models are skipped"
     ctest --preset default --output-on-failure
+}
+
+screenshots() {
+    install_packages "${build_packages[@]}" "${window_packages[@]}"
+    build
+    /usr/bin/python3 tests/window/take_screenshots.py build/host filter_ccdm/pictures
 }
 
 bench() {
@@ -179,6 +189,7 @@ demo) demo ;;
 test) run_tests ;;
 build) build ;;
 bench) bench "${@:2}" ;;
+screenshots) screenshots ;;
 clean)
     rm -rf build
     [ "${2:-}" != --all ] || rm -rf .sdk

@@ -62,16 +62,12 @@ QString FilterCcdmPlugin::filterInfo(int id) const
 {
     if (id != FP_CCDM_REMESHING)
         return "";
-    return "Replaces the triangles of a surface by well-shaped ones: the result has the <b>number of vertices</b> "
-           "asked for, the same topology, the same sharp features and boundaries, and all of its vertices lie on the "
-           "original. Takes any 2-manifold triangle mesh, with any genus, with boundaries, noise or "
-           "self-intersections, orientable or not.<br>"
-           "The vertices are spread by the wanted density; then edges are flipped until the mesh is Delaunay and each "
-           "vertex moves to the centroid of its neighbourhood, over and over; random perturbations take the mesh "
-           "from one local optimum to a better one.<br><br>"
-           "See:<br><i>Zhonggui Chen, Juan Cao, Wenping Wang</i><br>"
-           "<b>\"Isotropic Surface Remeshing Using Constrained Centroidal Delaunay Mesh\"</b><br>"
-           "Computer Graphics Forum 31(7), 2012.";
+    // Kept short: in MeshLab 2020.09 the parameters have only the room that this text leaves them.
+    return "Replaces the triangles of a surface by well-shaped ones: as <b>many vertices</b> as asked for, the same "
+           "topology, sharp features and boundaries; the vertices lie on the original. Takes any 2-manifold triangle "
+           "mesh, also with boundaries, noise or self-intersections, and not orientable ones.<br>"
+           "See: <i>Zhonggui Chen, Juan Cao, Wenping Wang</i>, <b>\"Isotropic Surface Remeshing Using Constrained "
+           "Centroidal Delaunay Mesh\"</b>, Computer Graphics Forum 31(7), 2012.";
 }
 
 FilterCcdmPlugin::CCDM_ARITY FilterCcdmPlugin::filterArity(CCDM_ACTION *) const

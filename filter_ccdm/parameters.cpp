@@ -13,6 +13,9 @@ namespace {
 
 enum SelectedEdges { Ignored, WithTheAngle, InsteadOfTheAngle };
 
+// The number that leaves a parameter to the optimizer.
+constexpr int Auto = -1;
+
 // Rich text wraps in tooltips, plain text does not.
 QString Tip(const char *text)
 {
@@ -81,23 +84,23 @@ RichParameterList DeclareParameters(int vertices)
     list.addParam(RichBool("new_layer", true, "New layer",
                            Tip("Puts the result into a new layer and leaves this one alone; otherwise the result takes "
                                "the place of this layer's mesh, which cannot be undone.")));
-    list.addParam(RichEnum(
-        "optimizer", 0, QStringList({"Accelerated", "Annealing"}), "Optimizer",
-        Tip("Accelerated gives better triangles in the same time; Annealing, with random samples, is "
-            "the method as published (set 40 global iterations and a smallest angle of 34 for it).") CCDM_ADVANCED));
-    list.addParam(RichInt("global_iterations", vcg::ccdm::GlobalIterations(p), "Global iterations (NG)",
-                          Tip("Number of perturb-and-optimise rounds, 0 to 1000000. Triangles get better with more "
-                              "rounds; time grows in proportion.") CCDM_ADVANCED));
+    list.addParam(
+        RichEnum("optimizer", 0, QStringList({"Accelerated", "Annealing"}), "Optimizer",
+                 Tip("Accelerated gives better triangles in the same time; Annealing, with random samples, is "
+                     "the method as published.") CCDM_ADVANCED));
+    list.addParam(RichInt("global_iterations", Auto, "Global iterations (NG; -1: auto)",
+                          Tip("Number of perturb-and-optimise rounds, 0 to 1000000; -1: 24 with Accelerated, 40 with "
+                              "Annealing. Triangles get better with more; time grows in proportion.") CCDM_ADVANCED));
     list.addParam(RichInt("local_iterations", p.localIterations, "Local iterations (NL)",
                           Tip("Relocations of every vertex in each round, 1 to 1000000.") CCDM_ADVANCED));
     list.addParam(RichFloat("lambda", static_cast<Scalarm>(p.lambda), "Lambda (edge lengths)",
                             Tip("Size of the random perturbation in units of the edge length, 0 to 1. The paper "
                                 "recommends 0.2. The accelerated optimizer starts at half of it and fades it out.")
                                 CCDM_ADVANCED));
-    list.addParam(RichFloat("min_angle", static_cast<Scalarm>(vcg::ccdm::MinAngle(p)), "Smallest angle (deg)",
-                            Tip("The closing polish aims at no angle below this, 0 to 45 degrees. Sharp corners and "
-                                "narrow parts of the input can forbid it; the log says what was reached.")
-                                CCDM_ADVANCED));
+    list.addParam(RichFloat("min_angle", Auto, "Smallest angle (deg; -1: auto)",
+                            Tip("The closing polish aims at no angle below this, 0 to 45 degrees; -1: 40 with "
+                                "Accelerated, 34 with Annealing. Sharp corners and narrow parts of the input can "
+                                "forbid it; the log says what was reached.") CCDM_ADVANCED));
     list.addParam(RichFloat("approximation", static_cast<Scalarm>(p.approximation), "Approximation (weight)",
                             Tip("How much closeness to the original counts against the angles in the closing steps, "
                                 "0 to 1. Above 0.5 the vertices may leave the surface.") CCDM_ADVANCED));
@@ -132,10 +135,12 @@ Settings ReadParameters(const RichParameterList &list)
         p.optimizer = vcg::ccdm::OptimizerKind::Annealing;
         p.sampler = vcg::ccdm::SamplerKind::Random;
     }
-    p.globalIterations = Whole(list, "global_iterations", 0, 1000000);
+    if (list.getInt("global_iterations") != Auto)
+        p.globalIterations = Whole(list, "global_iterations", 0, 1000000);
     p.localIterations = Whole(list, "local_iterations", 1, 1000000);
     p.lambda = Real(list, "lambda", 0, 1);
-    p.minAngle = Real(list, "min_angle", 0, 45);
+    if (list.getFloat("min_angle") != Auto)
+        p.minAngle = Real(list, "min_angle", 0, 45);
     p.approximation = Real(list, "approximation", 0, 1);
     p.seed = static_cast<std::uint32_t>(Whole(list, "seed", 0, 2147483647));
     return s;

@@ -109,11 +109,12 @@ def test_density_curvature_and_in_place_or_new_layer(tmp_path):
 @pytest.mark.parametrize("changes, reason", [
     ({"vertex_count": 0}, "vertex_count must lie between 4"), ({"vertex_count": 3}, "vertex_count must lie between 4"),
     ({"feature_angle": 0}, "feature_angle must lie"), ({"lambda": 7}, "lambda must lie"),
-    ({"global_iterations": -1}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
+    ({"global_iterations": -2}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
     ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
     ({"max_error": 200}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
     ({"selected_edges": 3}, "selected_edges must lie"), ({"optimizer": -1}, "optimizer must lie"),
-    ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie")])
+    ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie"),
+    ({"min_angle": -2}, "min_angle must lie")])
 def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
     out = tmp_path / "o.ply"
     run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, **changes), out)
@@ -142,6 +143,15 @@ def test_no_mesh_is_refused(tmp_path):
                           str(tmp_path / "o.ply")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                          timeout=120, check=False)
     assert run.returncode == 255 and "there is no current layer" in run.stdout
+
+
+@pytest.mark.parametrize("optimizer, plan", [
+    (0, "accelerated optimizer, 24 x 3 iterations, lambda 0.2, smallest angle 40 deg"),
+    (1, "annealing optimizer, 40 x 3 iterations, lambda 0.2, smallest angle 34 deg")])
+def test_minus_one_is_what_the_optimizer_has(tmp_path, optimizer, plan):
+    run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, vertex_count=300, optimizer=optimizer,
+                                                      global_iterations=-1, min_angle=-1), tmp_path / "o.ply")
+    assert run.returncode == 0 and plan in run.stdout
 
 
 def test_edge_length_in_percent_of_the_diagonal(tmp_path):

@@ -3,13 +3,16 @@
 import os
 import re
 import subprocess
+import sys
 import xml.etree.ElementTree as tree
 
 import pytest
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+from filter_parameters import declared, page_rows  # noqa: E402
+
 PLUGINS = os.environ["CCDM_PLUGINS"]
 SCRIPTS = os.environ["CCDM_SCRIPTS"]
-SOURCES = os.path.dirname(SCRIPTS)
 VERSIONS = ["2020.09", "2022.02", "2025.07"]
 
 
@@ -47,26 +50,6 @@ def test_needs_no_library_that_a_wheel_lacks(plugin):
     assert "libmeshlab-common.so" in needed and needed - system == {"libmeshlab-common.so"}
     assert not re.search(r"R(UN)?PATH", dynamic)
     assert re.search(r"FLAGS(_1)?\s+0x0*[0-9a-f]*[189]|BIND_NOW", dynamic), "bound when loaded, not in mid-run"
-
-
-def page_rows():
-    page = open(os.path.join(SOURCES, "PARAMETERS.md"), encoding="utf-8").read()
-    rows = [[cell.strip() for cell in line.strip("|\n").split("|")]
-            for line in page.splitlines() if line.startswith("| ")]
-    head = next(i for i, row in enumerate(rows) if row[0] == "dialog")
-    return [row for row in rows[head + 1:] if len(row) == 7]
-
-
-def declared():
-    """(type, name, label, advanced) of each parameter in the plugin's source, in order."""
-    source = open(os.path.join(SOURCES, "parameters.cpp"), encoding="utf-8").read()
-    found = []
-    for call in source.split("list.addParam(")[1:]:
-        call = call.split("return list;")[0]
-        kind, name = re.match(r"\s*(Rich\w+)\(\s*\"(\w+)\"", call).groups()
-        label = re.findall(r"\"([^\"]*)\"", call[:call.index("Tip(")])[-1]
-        found.append((kind, name, label, "CCDM_ADVANCED" in call))
-    return found
 
 
 def test_page_maps_every_parameter():

@@ -105,8 +105,9 @@ def test_angles_agree_with_numpy(name):
     ({}, ()), ({"density": "Curvature", "seed": 7}, ("--density", "curvature", "--seed", 7)),
     ({"feature_angle": 180, "lambda_": 0.35, "local_iterations": 2},
      ("--feature-angle", 180, "--lambda", 0.35, "--local-iterations", 2)),
-    ({"optimizer": "Annealing", "global_iterations": 12, "min_angle": 34},
-     ("--optimizer", "annealing", "--sampler", "random", "--global-iterations", 12)),
+    ({"optimizer": "Annealing"}, ("--optimizer", "annealing", "--sampler", "random")),
+    ({"optimizer": "Annealing", "global_iterations": 12, "min_angle": 30},
+     ("--optimizer", "annealing", "--sampler", "random", "--global-iterations", 12, "--min-angle", 30)),
     ({"approximation": 0.8, "min_angle": 30}, ("--approximation", 0.8, "--min-angle", 30))])
 def test_equals_the_command_line(tmp_path, parameters, options):
     source = os.path.join(SAMPLES, "cad_part.ply")
@@ -243,8 +244,9 @@ def refused(ms, pattern, **parameters):
     ({"vertex_count": 3}, "vertex_count must lie between 4"), ({"vertex_count": -5}, "vertex_count must lie"),
     ({"feature_angle": 0}, "feature_angle must lie"), ({"feature_angle": 181}, "feature_angle must lie"),
     ({"lambda_": math.nan}, "lambda must lie"), ({"lambda_": math.inf}, "lambda must lie"),
-    ({"global_iterations": -1}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
-    ({"min_angle": 46}, "min_angle must lie"), ({"approximation": -0.1}, "approximation must lie"),
+    ({"global_iterations": -2}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
+    ({"min_angle": 46}, "min_angle must lie"), ({"min_angle": -0.5}, "min_angle must lie"),
+    ({"approximation": -0.1}, "approximation must lie"),
     ({"seed": -1}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
     ({"max_error": 101}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
     ({"density": "Vertex quality"}, "the layer has no vertex quality")])
