@@ -10,6 +10,7 @@
 #include <vcg/complex/algorithms/ccdm/approximation.h>
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/delaunay.h>
+#include <vcg/complex/algorithms/ccdm/even_chords.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
 #include <vcg/complex/algorithms/ccdm/refinement.h>
 #include <vcg/complex/algorithms/ccdm/transplant.h>
@@ -59,6 +60,10 @@ public:
                 // Measured: the default costs hardly any angle; 1 takes up to a degree.
                 const double weight = 0.1 * _params.approximation * _params.approximation;
                 Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
+            },
+            [&] {
+                if (_params.approximation > 0)
+                    EvenChords(_model, _remesh).Run(target, ChordRounds, _probes.LargestDistance());
             },
             [&] { polish.RaiseAngles(target, 0.1, 20); },
             [&] { polish.RaiseAngles(target, 0.2, 20); },
@@ -253,6 +258,7 @@ private:
     static constexpr int ClosingRelocations = 6;
     static constexpr int PolishRounds = 10;
     static constexpr int ApproximationRounds = 4;
+    static constexpr int ChordRounds = 10;
     static constexpr int MostTransplants = 8;
 };
 

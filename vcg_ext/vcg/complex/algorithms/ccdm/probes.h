@@ -37,6 +37,11 @@ public:
     int Owner(int r) const { return _owner[r]; }
     /// Distance of a probe from its owner.
     double Distance(int r) const { return _distance[r]; }
+    /// The largest distance, as of the last Find.
+    double LargestDistance() const
+    {
+        return _distance.empty() ? 0 : *std::max_element(_distance.begin(), _distance.end());
+    }
     /// Probes of a triangle as of the last Find: Owned(k) for k in [First(t), First(t + 1)).
     int First(int t) const { return _first[t]; }
     int Owned(int k) const { return _owned[k]; }
