@@ -54,7 +54,7 @@ public:
     void Run(int rounds)
     {
         double size = 0.06;
-        for (int round = 0; round < rounds; ++round, size *= 0.75) {
+        for (int round = 0; round < rounds; ++round, size *= 0.82) {
             Flip();
             _schedule.ForVertices([&](int v, int worker) {
                 if (_remesh.place[v].kind != VertexKind::Corner)

@@ -256,7 +256,7 @@ private:
     // coarse level raise them where the surface has no features, by 0.1 degrees.
     static constexpr double CoarseShare = 2, FineShare = 0.3, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
-    static constexpr int PolishRounds = 10;
+    static constexpr int PolishRounds = 14;
     static constexpr int ApproximationRounds = 4;
     static constexpr int ChordRounds = 10;
     static constexpr int MostTransplants = 8;
