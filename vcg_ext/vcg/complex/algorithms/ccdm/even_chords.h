@@ -89,8 +89,10 @@ private:
         if (chain.empty())
             return;
         const FeatureCurve &c = _model.features.curve[_remesh.place[chain.front()].curve];
+        // A vertex that slid across the start of a closed curve has its new place in the order all the same.
         const auto add = [&](int a, double s, const Point &p, int b, double t, const Point &q, int hint) {
-            chords.push_back({a, b, Norm(At(c, (s + t) / 2, hint) - (p + q) / 2)});
+            const double way = t - s + (t < s ? c.Length() : 0);
+            chords.push_back({a, b, Norm(At(c, s + way / 2, hint) - (p + q) / 2)});
         };
         const auto s = [&](int v) { return _remesh.place[v].s; };
         const auto x = [&](int v) { return _remesh.position[v]; };
@@ -99,7 +101,7 @@ private:
             add(chain[k - 1], s(chain[k - 1]), x(chain[k - 1]), chain[k], s(chain[k]), x(chain[k]),
                 _remesh.place[chain[k]].segment);
         if (c.closed) {
-            add(last, s(last), x(last), first, s(first) + c.Length(), x(first), _remesh.place[last].segment);
+            add(last, s(last), x(last), first, s(first), x(first), _remesh.place[last].segment);
             return;
         }
         add(-1, 0, _model.surface.position[c.vertex.front()], first, s(first), x(first), 0);

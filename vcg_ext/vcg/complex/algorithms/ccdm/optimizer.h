@@ -61,10 +61,7 @@ public:
                 const double weight = 0.1 * _params.approximation * _params.approximation;
                 Approximation(_model, _remesh, _probes, _workers).Run(weight, ApproximationRounds);
             },
-            [&] {
-                if (_params.approximation > 0)
-                    EvenChords(_model, _remesh).Run(target, ChordRounds, _probes.LargestDistance());
-            },
+            [&] { LevelChords(target); },
             [&] { polish.RaiseAngles(target, 0.1, 20); },
             [&] { polish.RaiseAngles(target, 0.2, 20); },
             [&] {
@@ -82,6 +79,7 @@ public:
             },
             // What else can be captured without an angle below the target.
             [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, target); },
+            [&] { LevelChords(target); },
         };
         double done = 0;
         for (const auto &run : step) {
@@ -110,6 +108,12 @@ private:
         if (flips > 0)
             _schedule.Changed();
         _report.flips += flips;
+    }
+
+    void LevelChords(double minAngle)
+    {
+        if (_params.approximation > 0)
+            EvenChords(_model, _remesh).Run(minAngle, ChordRounds, _probes.LargestDistance());
     }
 
     template <class Displacement>
