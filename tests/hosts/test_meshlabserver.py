@@ -17,7 +17,8 @@ MESHES = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
 FILTER = "Remeshing: Isotropic CCDM (constrained centroidal Delaunay mesh)"
 # The order in which the filter declares its parameters: meshlabserver wants all of them, in it.
 DECLARED = [("vertex_count", "RichInt"), ("edge_length", "RichFloat"), ("max_error", "RichFloat"),
-            ("feature_angle", "RichFloat"), ("selected_edges", "RichEnum"), ("density", "RichEnum"),
+            ("feature_angle", "RichFloat"), ("selected_edges", "RichEnum"), ("boundary", "RichEnum"),
+            ("density", "RichEnum"), ("selected_faces_only", "RichBool"), ("keep_attributes", "RichBool"),
             ("new_layer", "RichBool"), ("optimizer", "RichEnum"), ("global_iterations", "RichInt"),
             ("local_iterations", "RichInt"), ("lambda", "RichFloat"), ("min_angle", "RichFloat"),
             ("approximation", "RichFloat"), ("seed", "RichInt")]
@@ -51,7 +52,7 @@ def variant(tmp_path, **changes):
 @pytest.mark.parametrize("name", script_names())
 def test_script_names_every_parameter_in_order(name):
     root = tree.parse(os.path.join(SCRIPTS, name)).getroot()
-    (element,) = root.findall("filter")
+    element = root.findall("filter")[-1]
     assert element.get("name") == FILTER
     assert [(p.get("name"), p.get("type")) for p in element] == DECLARED
 
@@ -67,7 +68,10 @@ def test_shipped_script_runs(tmp_path, name):
         assert asked == 0.005 and reached <= asked
     else:
         assert plyfile.count_ply(out)[0] == 5000
-    assert "topology preserved (Euler characteristic -2" in run.stdout
+    if name == "ccdm_selected_faces.mlx":
+        assert "topology of the remeshed part preserved" in run.stdout
+    else:
+        assert "topology preserved (Euler characteristic -2" in run.stdout
 
 
 def test_real_mesh(tmp_path):
@@ -112,7 +116,8 @@ def test_density_curvature_and_in_place_or_new_layer(tmp_path):
     ({"global_iterations": -1}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
     ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
     ({"max_error": 200}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
-    ({"selected_edges": 3}, "selected_edges must lie"), ({"optimizer": -1}, "optimizer must lie"),
+    ({"selected_edges": 3}, "selected_edges must lie"), ({"boundary": 3}, "boundary must lie"),
+    ({"selected_faces_only": "true"}, "no face is selected"), ({"optimizer": -1}, "optimizer must lie"),
     ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie")])
 def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
     out = tmp_path / "o.ply"
