@@ -303,6 +303,7 @@ def test_shipped_script_runs(name):
     count = ms.current_mesh().vertex_number()
     if name == "ccdm_selected_faces.mlx":
         assert 0 < ms.current_mesh().selected_face_number() < ms.current_mesh().face_number()
+        return
     assert 178 < count < 3000 if name == "ccdm_max_error.mlx" else count == 5000
 
 
