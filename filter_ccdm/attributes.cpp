@@ -2,8 +2,10 @@
 #include "attributes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 using vcg::ccdm::Provenance;
@@ -30,6 +32,22 @@ bool AreOwn(const std::vector<vcg::Point3d> &normals, const std::vector<vcg::Poi
     return 100 * different > normals.size();
 }
 
+Column NormalColumn(const std::vector<vcg::Point3d> &normals)
+{
+    Column column;
+    column.name = "vertex normals";
+    column.blend = Blend::Direction;
+    column.width = 3;
+    for (const vcg::Point3d &n : normals)
+        column.values.insert(column.values.end(), {n[0], n[1], n[2]});
+    column.open = [](LayerContent &content) -> Column::Writer {
+        return [&m = content.mesh](std::size_t i, const double *x) {
+            m.vert[i].N().Import(vcg::Point3d(x[0], x[1], x[2]));
+        };
+    };
+    return column;
+}
+
 constexpr int AllFaux = CFaceO::FAUX0 | CFaceO::FAUX1 | CFaceO::FAUX2;
 constexpr int AllSelectedEdges = CFaceO::FACEEDGESEL0 | CFaceO::FACEEDGESEL1 | CFaceO::FACEEDGESEL2;
 
@@ -45,7 +63,8 @@ AttributeCarrier::AttributeCarrier(const MeshModel &layer, const Mesh &input, co
     if (layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD) && layer.cm.face.IsWedgeTexCoordEnabled())
         _texture = WedgeTexture(layer.cm, input);
     ReadElements(layer.cm);
-    _ownNormals = AreOwn(_vertexNormals, VertexNormals(input));
+    if (AreOwn(_vertexNormals, VertexNormals(input)))
+        _columns.ofVertices.push_back(NormalColumn(_vertexNormals));
     NameTheRest(layer);
 }
 
@@ -139,6 +158,9 @@ void AttributeCarrier::Value(const Column &column, const Provenance &provenance,
     for (int k = 0; k < 3; ++k)
         for (int i = 0; i < column.width && at.weight[k] != 0; ++i)
             to[i] += at.weight[k] * column.At(_input.IndexOf(f, k))[i];
+    const double length = std::sqrt(std::inner_product(to, to + column.width, to, 0.0));
+    for (int i = 0; i < column.width && column.blend == Blend::Direction && length > 0; ++i)
+        to[i] /= length;
 }
 
 void AttributeCarrier::CarryVertices(const Provenance &provenance, LayerContent &content) const
@@ -157,19 +179,6 @@ void AttributeCarrier::CarryVertices(const Provenance &provenance, LayerContent 
         const SurfacePoint &at = provenance.vertex[v];
         if ((_vertexFlags[static_cast<std::size_t>(same >= 0 ? same : NearestVertex(at))] & CVertexO::SELECTED) != 0)
             m.vert[v].SetS();
-        if (!_ownNormals)
-            continue;
-        vcg::Point3d normal(0, 0, 0);
-        if (same >= 0) {
-            normal = _vertexNormals[static_cast<std::size_t>(same)];
-        } else {
-            const Face &f = _input.face[static_cast<std::size_t>(at.face)];
-            for (int k = 0; k < 3; ++k)
-                if (at.weight[k] != 0)
-                    normal += _vertexNormals[static_cast<std::size_t>(_input.IndexOf(f, k))] * at.weight[k];
-            normal.Normalize();
-        }
-        m.vert[v].N().Import(normal);
     }
 }
 
@@ -240,8 +249,6 @@ QStringList AttributeCarrier::Describe() const
         carried << "vertex selection";
     if (any(_faceFlags, CFaceO::SELECTED))
         carried << "face selection";
-    if (_ownNormals)
-        carried << "vertex normals";
     if (!_texture.Empty())
         carried << "texture coordinates per wedge";
     QStringList lines = {"carried: " + (carried.isEmpty() ? QString("nothing, there is nothing") : carried.join(", "))};
@@ -249,8 +256,8 @@ QStringList AttributeCarrier::Describe() const
         lines << "not carried: " + _notCarried.join(", ");
     lines << _notes;
     if (_crossed > 0)
-        lines << QString("%1 triangles lie across a seam of the texture coordinates, where charts are narrower than "
-                         "they; each continues the chart under its centroid")
+        lines << QString("%1 triangles touch two charts of the texture, where seams bend or run close together within "
+                         "the spacing; each continues the chart under its centroid")
                      .arg(_crossed);
     return lines;
 }
@@ -259,6 +266,8 @@ void CopySettings(const MeshModel &from, MeshModel &to)
 {
     to.cm.Tr = from.cm.Tr;
     to.cm.shot = from.cm.shot;
+    if (!to.hasDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTTEXCOORD))
+        return;
     to.cm.textures = from.cm.textures;
     to.cm.normalmaps = from.cm.normalmaps;
 #if CCDM_HOST_API != 2020

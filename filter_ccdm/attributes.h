@@ -41,7 +41,6 @@ private:
     // Of the live elements, in order.
     std::vector<int> _vertexFlags, _faceFlags;
     std::vector<vcg::Point3d> _vertexNormals, _faceNormals;
-    bool _ownNormals = false; // the vertex normals are not those of the faces
     QStringList _notCarried, _notes;
     int _crossed = 0;
 
@@ -54,7 +53,8 @@ private:
     void Value(const Column &column, const vcg::ccdm::Provenance &provenance, std::size_t vertex, double *to) const;
 };
 
-/// What goes from a layer to a new one beside the mesh: transform, camera, textures.
+/// What goes from a layer to a new one beside the mesh: transform, camera, and the textures if it has coordinates for
+/// them.
 void CopySettings(const MeshModel &from, MeshModel &to);
 
 } // namespace filter_ccdm

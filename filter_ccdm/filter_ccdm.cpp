@@ -217,11 +217,11 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     if (settings.newLayer)
         target = document.addNewMesh("", NewLayerName(source->label()), false);
     try {
-        if (settings.newLayer)
-            filter_ccdm::CopySettings(*source, *target);
         filter_ccdm::LayerContent content(result, *target);
         carrier.Carry(provenance, result, content);
         content.Commit();
+        if (settings.newLayer)
+            filter_ccdm::CopySettings(*source, *target);
     } catch (...) {
         if (settings.newLayer)
             filter_ccdm::DeleteLayer(document, *target);

@@ -28,8 +28,8 @@ public:
     /// Selects the seam edges.
     void MarkSeams(Mesh &input) const;
 
-    /// Gives the new faces their coordinates. Returns how many triangles a seam runs through after all, where charts
-    /// are narrower than they: such a triangle continues the chart under its centroid.
+    /// Gives the new faces their coordinates. Returns how many triangles touch two charts, where seams bend or run
+    /// close together within the spacing: such a triangle continues the chart under its centroid.
     int Carry(const vcg::ccdm::Provenance &provenance, const Mesh &input, const Mesh &result,
               LayerContent &content) const;
 

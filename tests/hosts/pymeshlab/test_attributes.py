@@ -218,6 +218,30 @@ def test_charts_of_a_box(tmp_path, angle, new_layer):
     assert sum(g.count("\nf ") for g in groups) == len(uv)
 
 
+@pytest.mark.parametrize("count, charts", [(3000, 10), (500, 30)])
+def test_ragged_charts_of_an_organic_surface(count, charts):
+    """Seams that zigzag along the old edges, also within the new spacing: still no triangle is stretched over two
+    charts."""
+    ms = load("bumpy")
+    ms.generate_voronoi_atlas_parametrization(regionnum=charts, overlapflag=False)
+    ms.set_current_mesh(1)
+    if not ms.current_mesh().has_wedge_tex_coord():
+        ms.compute_texcoord_transfer_vertex_to_wedge()
+    ms.meshing_remove_duplicate_vertices() # the charts' copies
+
+    def measure():
+        points, faces = content(ms)
+        uv, corner = wedges(ms.current_mesh()), points[faces]
+        stretch = numpy.linalg.norm(uv - uv[:, [1, 2, 0]], axis=2) / numpy.linalg.norm(
+            corner - corner[:, [1, 2, 0]], axis=2)
+        return stretch.min(), stretch.max(), numpy.abs(uv_areas(uv)).sum()
+    least, most, area = measure()
+    ms.apply_filter(FILTER, vertex_count=count, global_iterations=3, feature_angle=180)
+    new_least, new_most, new_area = measure()
+    assert new_least > 0.9 * least and new_most < 1.1 * most
+    assert new_area == pytest.approx(area, rel=0.01)
+
+
 def test_charts_of_one_triangle_each_are_given_up():
     lines = log_of("""
 points, faces = content(load("sphere"))

@@ -90,6 +90,18 @@ def test_the_rest_stays_to_the_last_bit(name, condition, new_layer):
     assert out["components"] == topology["connected_components_number"]
 
 
+def test_a_partial_run_always_keeps_the_attributes():
+    ms = with_attributes(*content(load("sphere")))
+    ms.compute_selection_by_condition_per_face(condselect="z0 > 0.2")
+    kept, rest, _ = split(ms)
+    before = everything(ms.current_mesh())
+    ms.apply_filter(FILTER, vertex_count=len(kept) + 50, global_iterations=1, selected_faces_only=True,
+                    keep_attributes=False)
+    after = everything(ms.current_mesh())
+    assert same(after["vertex_color_matrix"][:kept.sum()], before["vertex_color_matrix"][kept])
+    assert same(after["face_scalar_array"][:rest.sum()], before["face_scalar_array"][rest])
+
+
 def test_again_and_again_in_place():
     """The new faces are selected, so a second run goes on with them; the rest is as it was at first."""
     ms = with_attributes(*content(load("bumpy")))
