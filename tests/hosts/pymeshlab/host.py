@@ -44,21 +44,12 @@ def content(ms):
 
 
 def custom(m, name, of="vertex", kind="scalar"):
-    """A custom attribute; its method has other names in PyMeshLab 2022.2."""
-    for middle in ("custom_", ""):
-        method = getattr(m, f"{of}_{middle}{kind}_attribute_{'array' if kind == 'scalar' else 'matrix'}", None)
-        if method is not None:
-            return method(name)
-    raise AttributeError(name)
+    return getattr(m, f"{of}_custom_{kind}_attribute_{'array' if kind == 'scalar' else 'matrix'}")(name)
 
 
-def add_custom(m, values, name, of="vertex"):
-    kind = "scalar" if values.ndim == 1 else "point"
-    for middle in ("custom_", ""):
-        method = getattr(m, f"add_{of}_{middle}{kind}_attribute", None)
-        if method is not None:
-            return method(values, name)
-    raise AttributeError(name)
+def add_points(ms, name, x, y, z, of="vertex"):
+    """A custom attribute of points by expressions; PyMeshLab 2022.2 overruns its memory when it takes an array."""
+    ms.apply_filter(f"compute_new_custom_point_attribute_per_{of}", name=name, x_expr=x, y_expr=y, z_expr=z)
 
 
 def everything(m):

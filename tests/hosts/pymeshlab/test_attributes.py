@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Attributes that the filter carries over, as arrays."""
 import os
-import resource
 import subprocess
 import sys
 
@@ -9,7 +8,7 @@ import numpy
 import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from host import (FILTER, VERSION, add_custom, content, custom, everything, load, log_of, pymeshlab,  # noqa: E402
+from host import (FILTER, add_points, content, custom, everything, load, log_of, pymeshlab,  # noqa: E402
                   refused, same, set_of, unit, uv_areas)
 import plyfile  # noqa: E402
 
@@ -84,8 +83,8 @@ def test_linear_field_there_and_back(name, new_layer):
     """The vertices lie on the input, where the field is linear: it is met to rounding, there and back again."""
     points, faces = content(load(name))
     ms = set_of(points, faces, v_scalar_array=field(points))
-    add_custom(ms.current_mesh(), 3 * field(points), "temperature")
-    add_custom(ms.current_mesh(), points[:, [2, 0, 1]], "place")
+    ms.current_mesh().add_vertex_custom_scalar_attribute(3 * field(points), "temperature")
+    add_points(ms, "place", "z", "x", "y")
     for count in (len(points) + 700, len(points)):
         ms.apply_filter(FILTER, vertex_count=count, global_iterations=4, new_layer=new_layer)
         m = ms.current_mesh()
@@ -120,8 +119,8 @@ def test_faces_take_what_lies_under_them(new_layer):
     side = numpy.arange(12) // 2
     colour = numpy.column_stack([side / 5, 1 - side / 5, side % 2, numpy.ones(12)])
     ms = set_of(points, faces, f_scalar_array=side * 1.5, f_color_matrix=colour)
-    add_custom(ms.current_mesh(), side * 10.0, "side", of="face")
-    add_custom(ms.current_mesh(), numpy.column_stack([side, side, side]) / 7.0, "sides", of="face")
+    ms.current_mesh().add_face_custom_scalar_attribute(side * 10.0, "side")
+    add_points(ms, "numbers", "fi", "2*fi", "x0", of="face")
     ms.compute_selection_by_condition_per_face(condselect="fi < 4")
     original = ms.current_mesh().face_color_matrix()
     assert ms.current_mesh().selected_face_number() == 4
@@ -137,7 +136,8 @@ def test_faces_take_what_lies_under_them(new_layer):
     assert set(expected) == set(range(6))
     assert same(m.face_scalar_array(), expected * 1.5)
     assert same(custom(m, "side", of="face"), expected * 10.0)
-    assert same(custom(m, "sides", of="face", kind="point"), numpy.column_stack([expected] * 3) / 7.0)
+    numbers = custom(m, "numbers", of="face", kind="point")
+    assert numpy.array_equal(numbers[:, 0] // 2, expected) and same(numbers[:, 1], 2 * numbers[:, 0])
     assert same(m.face_color_matrix(), original[2 * expected])
     assert numpy.array_equal(m.face_selection_array(), expected < 2)
     assert m.selected_face_number() == (expected < 2).sum()
@@ -145,7 +145,8 @@ def test_faces_take_what_lies_under_them(new_layer):
 
 def test_texture_coordinates_and_selection_of_vertices():
     points, faces = content(load("sphere"))
-    ms = set_of(points, faces, v_tex_coords_matrix=points[:, :2] / 3 + 0.5)
+    ms = set_of(points, faces)
+    ms.compute_texcoord_by_function_per_vertex(u="x/3 + 0.5", v="y/3 + 0.5")
     ms.compute_selection_by_condition_per_vertex(condselect="z > 0")
     assert 0 < ms.current_mesh().selected_vertex_number() < len(points)
     ms.apply_filter(FILTER, vertex_count=600, global_iterations=2)
@@ -244,9 +245,9 @@ def test_ragged_charts_of_an_organic_surface(count, charts):
 
 def test_charts_of_one_triangle_each_are_given_up():
     lines = log_of("""
-points, faces = content(load("sphere"))
-uv = numpy.random.default_rng(1).random((3 * len(faces), 2))
-ms.add_mesh(pymeshlab.Mesh(points, faces, w_tex_coords_matrix=uv))
+ms.load_new_mesh(SAMPLES + "/sphere.ply")
+ms.compute_texcoord_parametrization_triangle_trivial_per_wedge(textdim=1024)
+assert ms.current_mesh().has_wedge_tex_coord()
 ms.apply_filter(FILTER, vertex_count=60, global_iterations=1)
 assert ms.current_mesh().vertex_number() == 60 and not ms.current_mesh().has_wedge_tex_coord()
 """)
@@ -256,9 +257,9 @@ assert ms.current_mesh().vertex_number() == 60 and not ms.current_mesh().has_wed
 def test_nothing_is_carried_when_not_asked_for():
     points, faces = content(load("sphere"))
     for new_layer in (True, False):
-        ms = set_of(points, faces, v_scalar_array=field(points), f_scalar_array=numpy.ones(len(faces)),
-                    v_tex_coords_matrix=points[:, :2])
-        add_custom(ms.current_mesh(), field(points), "temperature")
+        ms = set_of(points, faces, v_scalar_array=field(points), f_scalar_array=numpy.ones(len(faces)))
+        ms.compute_texcoord_by_function_per_vertex(u="x", v="y")
+        ms.current_mesh().add_vertex_custom_scalar_attribute(field(points), "temperature")
         ms.set_selection_all()
         ms.apply_filter(FILTER, vertex_count=300, global_iterations=1, keep_attributes=False, new_layer=new_layer)
         m = ms.current_mesh()
@@ -273,7 +274,7 @@ def test_the_log_names_what_is_carried_and_what_is_not():
     lines = log_of("""
 ms.load_new_mesh(SAMPLES + "/sphere.ply")
 ms.compute_scalar_by_function_per_vertex(q="x + 2 * y")
-add_custom(ms.current_mesh(), ms.current_mesh().vertex_scalar_array(), "heat")
+ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_scalar_array(), "heat")
 ms.compute_curvature_principal_directions_per_vertex()
 ms.compute_selection_crease_per_edge(angledegneg=-1, angledegpos=1)
 ms.set_selection_all()
@@ -320,7 +321,7 @@ sys.path.insert(0, {os.path.dirname(os.path.abspath(__file__))!r})
 from host import *
 points, faces = content(load("bust"))
 ms = set_of(points, faces, v_scalar_array=points[:, 0].copy())
-add_custom(ms.current_mesh(), points[:, 1].copy(), "y")
+ms.current_mesh().add_vertex_custom_scalar_attribute(points[:, 1].copy(), "y")
 before = everything(ms.current_mesh())
 failures = 0
 for step in range(400):

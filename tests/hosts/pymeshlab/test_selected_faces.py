@@ -8,7 +8,7 @@ import numpy
 import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from host import (FILTER, add_custom, content, custom, everything, load, log_of, meshes, pymeshlab,  # noqa: E402
+from host import (FILTER, add_points, content, custom, everything, load, log_of, meshes, pymeshlab,  # noqa: E402
                   refused, same, set_of, uv_areas)
 import plyfile  # noqa: E402
 from test_attributes import cylinder, field, textured, wedges  # noqa: E402
@@ -27,10 +27,10 @@ def boundary_vertices(faces):
 def with_attributes(points, faces):
     random = numpy.random.default_rng(3)
     ms = set_of(points, faces, v_scalar_array=field(points), v_color_matrix=random.random((len(points), 4)),
-                f_color_matrix=random.random((len(faces), 4)), f_scalar_array=random.random(len(faces)),
-                v_tex_coords_matrix=random.random((len(points), 2)))
-    add_custom(ms.current_mesh(), field(points) / 3, "third")
-    add_custom(ms.current_mesh(), random.random((len(faces), 3)), "random", of="face")
+                f_color_matrix=random.random((len(faces), 4)), f_scalar_array=random.random(len(faces)))
+    ms.compute_texcoord_by_function_per_vertex(u="x/7", v="z/5")
+    ms.current_mesh().add_vertex_custom_scalar_attribute(field(points) / 3, "third")
+    add_points(ms, "numbers", "fi/7", "fi*fi", "x0", of="face")
     return ms
 
 
@@ -58,14 +58,14 @@ def test_the_rest_stays_to_the_last_bit(name, condition, new_layer):
     assert 0 < rest.sum() < len(rest)
     m = ms.current_mesh()
     before = everything(m)
-    before["third"], before["random"] = custom(m, "third"), custom(m, "random", of="face", kind="point")
+    before["third"], before["numbers"] = custom(m, "third"), custom(m, "numbers", of="face", kind="point")
     count = len(kept) + 400
     out = ms.apply_filter(FILTER, vertex_count=count, global_iterations=3, selected_faces_only=True,
                           new_layer=new_layer)
     assert meshes(ms) == 1 + new_layer
     m = ms.current_mesh()
     after = everything(m)
-    after["third"], after["random"] = custom(m, "third"), custom(m, "random", of="face", kind="point")
+    after["third"], after["numbers"] = custom(m, "third"), custom(m, "numbers", of="face", kind="point")
     n, f = kept.sum(), rest.sum()
     assert (out["kept_vertices"], out["kept_faces"]) == (n, f)
     assert m.vertex_number() == count + out["extra_vertices"]
@@ -75,7 +75,7 @@ def test_the_rest_stays_to_the_last_bit(name, condition, new_layer):
     for key in ("points", "vertex_scalar_array", "vertex_color_matrix", "vertex_tex_coord_matrix", "vertex selection",
                 "third"):
         assert same(after[key][:n], before[key][kept]), key
-    for key in ("face_scalar_array", "face_color_matrix", "face normals", "random"):
+    for key in ("face_scalar_array", "face_color_matrix", "face normals", "numbers"):
         assert same(after[key][:f], before[key][rest]), key
     off = away[kept]
     assert same(after["vertex normals"][:n][off], before["vertex normals"][away]), "away from the new part"
@@ -128,13 +128,12 @@ def test_texture_of_the_rest_and_of_the_new_part(tmp_path):
     assert numpy.ptp(after[:, :, 0], axis=1).max() < 0.1, "no triangle straddles the seam"
 
 
-def test_polygons_of_the_rest_stay():
+def test_polygons_of_the_rest_stay(tmp_path):
     n = 9
-    points = numpy.array([(i, j, 0.05 * i * j) for i in range(n) for j in range(n)], float)
-    quads = [numpy.array([n * i + j, n * i + j + n, n * i + j + n + 1, n * i + j + 1], numpy.uint32)
-             for i in range(n - 1) for j in range(n - 1)]
+    points = [(i, j, 0.05 * i * j) for i in range(n) for j in range(n)]
+    quads = [(n * i + j, n * i + j + n, n * i + j + n + 1, n * i + j + 1) for i in range(n - 1) for j in range(n - 1)]
     ms = pymeshlab.MeshSet()
-    ms.add_mesh(pymeshlab.Mesh(points, quads))
+    ms.load_new_mesh(plyfile.write_ply(str(tmp_path / "quads.ply"), points, quads))
     ms.compute_selection_by_condition_per_face(condselect="x0 + x1 + x2 > 12 && fi != 90")
     chosen = ms.current_mesh().face_selection_array().astype(bool)
     whole = sum(1 for k in range(len(quads)) if not chosen[2 * k:2 * k + 2].any())
