@@ -8,7 +8,7 @@ import numpy
 import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from host import (FILTER, add_points, content, custom, everything, load, log_of, pymeshlab,  # noqa: E402
+from host import (FILTER, add_points, content, custom, load, log_of, pymeshlab,  # noqa: E402
                   refused, same, set_of, unit, uv_areas)
 import plyfile  # noqa: E402
 
@@ -313,7 +313,8 @@ def test_failure_leaves_every_attribute_alone(tmp_path):
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of a process's memory")
-def test_too_little_memory_leaves_the_mesh_alone():
+@pytest.mark.parametrize("new_layer", [True, False])
+def test_too_little_memory_leaves_the_mesh_alone(new_layer):
     """The limit rises from run to run until one succeeds; before that the arrays are as they were."""
     program = f"""
 import os, resource, sys
@@ -328,7 +329,7 @@ for step in range(400):
     used = int(open("/proc/self/statm").read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     resource.setrlimit(resource.RLIMIT_AS, (used + step * 250000, -1))
     try:
-        ms.apply_filter(FILTER, vertex_count=20000, global_iterations=0, new_layer=False)
+        ms.apply_filter(FILTER, vertex_count=20000, global_iterations=0, new_layer={new_layer})
         done = True
     except pymeshlab.PyMeshLabException as error:
         done = False
@@ -336,6 +337,7 @@ for step in range(400):
     resource.setrlimit(resource.RLIMIT_AS, (-1, -1))
     if done:
         break
+    assert meshes(ms) == 1 and ms.current_mesh_id() == 0
     after = everything(ms.current_mesh())
     assert all(same(before[k], after[k]) for k in before), step
 assert done and ms.current_mesh().vertex_number() == 20000
