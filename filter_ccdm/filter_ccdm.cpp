@@ -8,6 +8,7 @@
 #include <QElapsedTimer>
 #include <QFileInfo>
 
+#include "attributes.h"
 #include "host_process.h"
 
 using filter_ccdm::Failure;
@@ -187,6 +188,7 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     if (filter_ccdm::IsPyMeshLab(progress))
         progress = nullptr;
 
+    // All that is needed of the layer is copied before the progress callback lets the user work on.
     filter_ccdm::Mesh input, result;
     filter_ccdm::CopyFromLayer(source->cm, input);
     if (settings.edgeLengthPercent)
@@ -195,33 +197,43 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
         Say("CCDM: " + line);
     if (settings.engine.useMarkedEdges && filter_ccdm::SelectedEdgeCount(input) == 0)
         Say("CCDM: note: no face edge is selected", Level::Warning);
+    filter_ccdm::AttributeCarrier carrier(*source, input, settings);
+    carrier.MarkFeatures(input, settings.engine);
 
     QElapsedTimer timer;
     timer.start();
-    vcg::ccdm::Report report = filter_ccdm::RemeshCopy(input, result, settings.engine, progress);
+    vcg::ccdm::Provenance provenance;
+    vcg::ccdm::Report report = filter_ccdm::RemeshCopy(input, result, settings.engine, progress, provenance);
     const filter_ccdm::Measured run(input, result, std::move(report), static_cast<double>(timer.elapsed()) / 1000);
 
-    // The callback lets the user work on: the layer may be gone by now, and another in its memory.
+    // The layer may be gone by now, and another in its memory.
     if (document.getMesh(id) != source)
         throw Failure("the layer was deleted while the filter was running");
-    if (settings.newLayer) {
-        MeshModel *target = document.addNewMesh("", NewLayerName(source->label()), false);
-        try {
-            filter_ccdm::CopyToLayer(result, *target);
-            target->cm.Tr = source->cm.Tr;
-        } catch (...) {
+    MeshModel *target = source;
+    if (settings.newLayer)
+        target = document.addNewMesh("", NewLayerName(source->label()), false);
+    try {
+        filter_ccdm::LayerContent content(result, *target);
+        carrier.Carry(provenance, result, content);
+        content.Commit();
+        if (settings.newLayer)
+            filter_ccdm::CopySettings(*source, *target);
+    } catch (...) {
+        if (settings.newLayer)
             filter_ccdm::DeleteLayer(document, *target);
-            throw;
-        }
-        document.setCurrentMesh(target->id());
-    } else {
-        filter_ccdm::CopyToLayer(result, *source);
+        throw;
     }
+    if (settings.newLayer)
+        document.setCurrentMesh(target->id());
+    for (const QString &line : carrier.Describe())
+        Say("CCDM: " + line);
     for (const QString &line : filter_ccdm::DescribeRun(run))
         Say("CCDM: " + line);
     for (const std::string &warning : run.report.warnings)
         Say("CCDM: note: " + QString::fromStdString(warning), Level::Warning);
-    return filter_ccdm::OutputsOf(run);
+    filter_ccdm::Outputs outputs = filter_ccdm::OutputsOf(run);
+    outputs["kept_faces"] = provenance.keptFaces;
+    return outputs;
 }
 
 void FilterCcdmPlugin::Say(const QString &line, Level level)

@@ -78,9 +78,22 @@ RichParameterList DeclareParameters(int vertices)
                            QStringList({"Ignored", "With the angle", "Instead of the angle"}), "Selected edges",
                            Tip("Whether the selected face edges (see \"Select Crease Edges\") are kept as features: in "
                                "addition to those found by the feature angle, or instead of them.")));
+    list.addParam(RichEnum("boundary", 0, QStringList({"Sliding", "Fixed", "Smooth"}), "Boundary",
+                           Tip("What becomes of open boundaries. Sliding: their corners stay, their other vertices are "
+                               "replaced by new ones along them. Fixed: all of their vertices stay, so that the result "
+                               "fits to what it was cut from. Smooth: none need stay, sharp turns are rounded off.")));
     list.addParam(RichEnum("density", 0, QStringList({"Uniform", "Curvature", "Vertex quality"}), "Density",
                            Tip("What the density of the vertices follows: nothing, the curvature of the surface, or "
                                "the quality of its vertices (0 or more and finite; larger means denser).")));
+    list.addParam(RichBool("selected_faces_only", false, "Selected faces only",
+                           Tip("Remeshes the selected faces only. All other vertices and faces stay exactly as they "
+                               "are, and the parts join without a gap. The vertex count is that of the whole result; "
+                               "the new faces are selected in it.")));
+    list.addParam(RichBool("keep_attributes", true, "Keep attributes",
+                           Tip("Carries colours, quality, selection, texture coordinates, custom attributes and own "
+                               "normals over from the place where each new vertex or face lies; seams of the texture "
+                               "coordinates are kept as features. The log names what was carried. Always on when only "
+                               "the selected faces are remeshed.")));
     list.addParam(RichBool("new_layer", true, "New layer",
                            Tip("Puts the result into a new layer and leaves this one alone; otherwise the result takes "
                                "the place of this layer's mesh, which cannot be undone.")));
@@ -129,6 +142,9 @@ Settings ReadParameters(const RichParameterList &list)
     p.useMarkedEdges = selected != Ignored;
     if (selected == InsteadOfTheAngle)
         p.featureAngle = 180;
+    p.boundary = static_cast<vcg::ccdm::BoundaryKind>(Choice(list, "boundary", 3));
+    p.selectedFacesOnly = list.getBool("selected_faces_only");
+    s.keepAttributes = list.getBool("keep_attributes");
     p.density = static_cast<vcg::ccdm::DensityKind>(Choice(list, "density", 3));
     s.newLayer = list.getBool("new_layer");
     if (Choice(list, "optimizer", 2) == 1) {

@@ -22,6 +22,8 @@ struct Settings {
     vcg::ccdm::Params engine;
     /// Mean edge length in percent of the bounding box's diagonal, when it is the target.
     std::optional<double> edgeLengthPercent;
+    /// What the layer has beside the mesh goes to the result.
+    bool keepAttributes = true;
     bool newLayer = true;
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_layer.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 
 namespace filter_ccdm {
@@ -29,34 +33,33 @@ void CopyFromLayer(const CMeshO &layer, Mesh &mesh)
             if (source.IsFaceEdgeS(k))
                 f->SetFaceEdgeS(k);
         }
+        if (source.IsS())
+            f->SetS();
         ++f;
     }
 }
 
-void CopyToLayer(const Mesh &mesh, MeshModel &layer)
+std::vector<vcg::Point3d> VertexNormals(const Mesh &mesh)
 {
-    layer.cm.Clear();
-    CMeshO &m = layer.cm;
-    auto v = vcg::tri::Allocator<CMeshO>::AddVertices(m, mesh.vert.size());
-    for (const Vertex &source : mesh.vert) {
-        v->P().Import(source.cP());
-        ++v;
+    std::vector<vcg::Point3d> normal(mesh.vert.size(), vcg::Point3d(0, 0, 0));
+    for (const Face &f : mesh.face) {
+        vcg::Point3d across = (f.cP(1) - f.cP(0)) ^ (f.cP(2) - f.cP(0));
+        across.Normalize();
+        for (int k = 0; k < 3; ++k) {
+            const vcg::Point3d a = f.cP((k + 1) % 3) - f.cP(k), b = f.cP((k + 2) % 3) - f.cP(k);
+            normal[static_cast<std::size_t>(mesh.IndexOf(f, k))] += across * std::atan2((a ^ b).Norm(), a * b);
+        }
     }
-    auto f = vcg::tri::Allocator<CMeshO>::AddFaces(m, mesh.face.size());
-    for (const Face &source : mesh.face) {
-        for (int k = 0; k < 3; ++k)
-            f->V(k) = &m.vert[static_cast<std::size_t>(source.cV(k) - mesh.vert.data())];
-        ++f;
-    }
-    m.sfn = m.svn = 0;
-    UpdateBoxAndNormals(layer);
+    for (vcg::Point3d &n : normal)
+        n.Normalize();
+    return normal;
 }
 
-double Diagonal(const Mesh &mesh)
+double Diagonal(const Mesh &mesh, bool selectedOnly)
 {
     vcg::Box3d box;
     for (const Face &f : mesh.face)
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < 3 && (!selectedOnly || f.IsS()); ++k)
             box.Add(f.cP(k));
     return box.IsNull() ? 0 : box.Diag();
 }
@@ -70,12 +73,43 @@ int SelectedEdgeCount(const Mesh &mesh)
     return count;
 }
 
-vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::Params &params,
-                             vcg::CallBackPos *progress)
+int SelectedFaceCount(const Mesh &mesh)
 {
-    vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, params, progress);
+    return static_cast<int>(std::count_if(mesh.face.begin(), mesh.face.end(), [](const Face &f) { return f.IsS(); }));
+}
+
+int VertexBudget(const Mesh &input, const vcg::ccdm::Params &params)
+{
+    double area = 0;
+    std::vector<char> stays(input.vert.size(), 0);
+    for (const Face &f : input.face)
+        if (f.IsS() || !params.selectedFacesOnly)
+            area += ((f.cP(1) - f.cP(0)) ^ (f.cP(2) - f.cP(0))).Norm() / 2;
+        else
+            for (int k = 0; k < 3; ++k)
+                stays[static_cast<std::size_t>(input.IndexOf(f, k))] = 1;
+    constexpr int most = std::numeric_limits<int>::max();
+    if (params.edgeLength) // equilateral triangles, two for each vertex
+        return static_cast<int>(std::min<double>(most, 2 / std::sqrt(3) * area / std::pow(*params.edgeLength, 2)));
+    return params.maxError ? most
+                           : params.vertexCount - static_cast<int>(std::count(stays.begin(), stays.end(), char(1)));
+}
+
+vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::Params &params,
+                             vcg::CallBackPos *progress, vcg::ccdm::Provenance &provenance)
+{
+    // The engine relates errors to the part that it remeshes.
+    vcg::ccdm::Params own = params;
+    const double part = Diagonal(input, params.selectedFacesOnly), scale = part > 0 ? Diagonal(input) / part : 1;
+    if (params.maxError)
+        own.maxError = std::min(1.0, *params.maxError * scale);
+    vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, own, progress, &provenance);
     if (report.status != vcg::ccdm::Status::Done)
         throw Failure(report.message);
+    if (params.maxError) {
+        report.asked /= scale;
+        report.reached /= scale;
+    }
     return report;
 }
 

@@ -33,12 +33,17 @@ QStringList DescribePlan(const Mesh &input, const Settings &settings)
     if (p.useMarkedEdges)
         features += QString(" and the selected edges (%1 sides of faces)").arg(selected);
     static constexpr std::array<const char *, 3> densities = {"uniform", "by curvature", "by vertex quality"};
+    static constexpr std::array<const char *, 3> boundaries = {"sliding", "fixed", "smooth"};
     QStringList lines;
     lines << QString("remeshing %1 vertices, %2 faces to %3; %4")
                  .arg(input.VN())
                  .arg(input.FN())
                  .arg(target, settings.newLayer ? "into a new layer" : "in place");
-    lines << QString("features: %1; density: %2").arg(features, densities[static_cast<std::size_t>(p.density)]);
+    if (p.selectedFacesOnly)
+        lines << QString("only the %1 selected faces; all else stays as it is").arg(SelectedFaceCount(input));
+    lines << QString("features: %1; boundary: %2; density: %3")
+                 .arg(features, boundaries[static_cast<std::size_t>(p.boundary)],
+                      densities[static_cast<std::size_t>(p.density)]);
     lines << QString("%1 optimizer, %2 x %3 iterations, lambda %4, smallest angle %5 deg, approximation %6, seed %7")
                  .arg(p.optimizer == vcg::ccdm::OptimizerKind::Accelerated ? "accelerated" : "annealing")
                  .arg(vcg::ccdm::GlobalIterations(p))
@@ -74,8 +79,9 @@ QStringList DescribeRun(const Measured &run)
     lines << QString("distance / diagonal: Hausdorff %1, RMS %2")
                  .arg(run.distance.hausdorff, 0, 'e', 2)
                  .arg(run.distance.rms, 0, 'e', 2);
-    lines << QString("topology %1 (Euler characteristic %2, %3 boundary loops, %4)")
-                 .arg(report.topologyPreserved ? "preserved" : "changed")
+    lines << QString("topology%1 %2 (Euler characteristic %3, %4 boundary loops, %5)")
+                 .arg(report.keptVertices > 0 ? " of the remeshed part" : "",
+                      report.topologyPreserved ? "preserved" : "changed")
                  .arg(report.resultTopology.euler)
                  .arg(report.resultTopology.boundaryLoops)
                  .arg(report.resultTopology.orientable ? "orientable" : "not orientable");
@@ -104,6 +110,7 @@ Outputs OutputsOf(const Measured &run)
     out["vertex_number"] = run.after.vertices;
     out["face_number"] = run.after.faces;
     out["extra_vertices"] = report.extraVertices;
+    out["kept_vertices"] = report.keptVertices;
     out["average_smallest_angle"] = run.after.angleMinAvg;
     out["smallest_angle"] = run.after.angleMin;
     out["largest_angle"] = run.after.angleMax;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The plugin inside MeshLab 2020.09's headless server, as scripts drive it."""
+import math
 import os
 import re
 import subprocess
@@ -17,7 +18,8 @@ MESHES = os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes")
 FILTER = "Remeshing: Isotropic CCDM (constrained centroidal Delaunay mesh)"
 # The order in which the filter declares its parameters: meshlabserver wants all of them, in it.
 DECLARED = [("vertex_count", "RichInt"), ("edge_length", "RichFloat"), ("max_error", "RichFloat"),
-            ("feature_angle", "RichFloat"), ("selected_edges", "RichEnum"), ("density", "RichEnum"),
+            ("feature_angle", "RichFloat"), ("selected_edges", "RichEnum"), ("boundary", "RichEnum"),
+            ("density", "RichEnum"), ("selected_faces_only", "RichBool"), ("keep_attributes", "RichBool"),
             ("new_layer", "RichBool"), ("optimizer", "RichEnum"), ("global_iterations", "RichInt"),
             ("local_iterations", "RichInt"), ("lambda", "RichFloat"), ("min_angle", "RichFloat"),
             ("approximation", "RichFloat"), ("seed", "RichInt")]
@@ -51,7 +53,7 @@ def variant(tmp_path, **changes):
 @pytest.mark.parametrize("name", script_names())
 def test_script_names_every_parameter_in_order(name):
     root = tree.parse(os.path.join(SCRIPTS, name)).getroot()
-    (element,) = root.findall("filter")
+    element = root.findall("filter")[-1]
     assert element.get("name") == FILTER
     assert [(p.get("name"), p.get("type")) for p in element] == DECLARED
 
@@ -65,6 +67,10 @@ def test_shipped_script_runs(tmp_path, name):
         asked, reached = map(float, re.search(r"largest error / diagonal: asked (\S+), reached (\S+) in",
                                               run.stdout).groups())
         assert asked == 0.005 and reached <= asked
+    elif name == "ccdm_selected_faces.mlx":
+        assert "topology of the remeshed part preserved" in run.stdout
+        assert "mean edge length: asked" in run.stdout and "(not met)" not in run.stdout
+        return
     else:
         assert plyfile.count_ply(out)[0] == 5000
     assert "topology preserved (Euler characteristic -2" in run.stdout
@@ -112,7 +118,8 @@ def test_density_curvature_and_in_place_or_new_layer(tmp_path):
     ({"global_iterations": -2}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
     ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
     ({"max_error": 200}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
-    ({"selected_edges": 3}, "selected_edges must lie"), ({"optimizer": -1}, "optimizer must lie"),
+    ({"selected_edges": 3}, "selected_edges must lie"), ({"boundary": 3}, "boundary must lie"),
+    ({"selected_faces_only": "true"}, "no face is selected"), ({"optimizer": -1}, "optimizer must lie"),
     ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie"),
     ({"min_angle": -2}, "min_angle must lie")])
 def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
@@ -169,3 +176,75 @@ def test_log_before_and_after(tmp_path):
     assert "note: no face edge is selected" in lines
     table = {tuple(line.rsplit(None, 2)) for line in lines}
     assert ("vertices", "178", "800") in table and ("Euler characteristic", "-2", "-2") in table
+
+
+def write_tube(path, n=24, m=9):
+    """A tube with colours, quality and selection of its vertices, colours of its faces, and a texture strip around it
+    whose ends meet in a seam."""
+    with open(path, "w", encoding="ascii") as out:
+        out.write(f"ply\nformat ascii 1.0\ncomment TextureFile strip.png\nelement vertex {n * m}\n")
+        out.writelines(f"property float {k}\n" for k in "xyz")
+        out.writelines(f"property uchar {k}\n" for k in ("red", "green", "blue", "alpha"))
+        out.write(f"property float quality\nelement face {2 * n * (m - 1)}\nproperty list uchar int vertex_indices\n"
+                  "property list uchar float texcoord\n")
+        out.writelines(f"property uchar {k}\n" for k in ("red", "green", "blue", "alpha"))
+        out.write("end_header\n")
+        for j in range(m):
+            for i in range(n):
+                x, y, z = math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), 2 * j / (m - 1)
+                out.write(f"{x} {y} {z} {round(120 + 100 * x)} {round(120 + 100 * y)} {round(100 * z)} 255 "
+                          f"{x + 2 * y + 3 * z}\n")
+        for j in range(m - 1):
+            for i in range(n):
+                corner = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+                for t in ((0, 1, 2), (0, 2, 3)):
+                    out.write("3 " + " ".join(str(corner[k][1] * n + corner[k][0] % n) for k in t) + " 6 " + " ".join(
+                        f"{corner[k][0] / n} {corner[k][1] / (m - 1)}" for k in t) + f" {10 * j} 0 0 255\n")
+    return path
+
+
+@pytest.mark.parametrize("new_layer", ["true", "false"])
+def test_attributes_through_files(tmp_path, new_layer):
+    source, out = write_tube(str(tmp_path / "tube.ply")), tmp_path / "o.ply"
+    script = variant(tmp_path, vertex_count=500, feature_angle=100, global_iterations=3, new_layer=new_layer)
+    run = run_server(source, script, out, "-m", "vc", "vq", "fc", "wt")
+    assert run.returncode == 0, run.stdout[-2000:]
+    assert re.search(r"carried: vertex colour, vertex quality, face colour, texture coordinates per wedge", run.stdout)
+    assert "8 seam edges" in run.stdout
+    assert b"TextureFile strip.png" in out.read_bytes()[:2000]
+    mesh = plyfile.read_ply(out)
+    vertices = mesh["vertex"]
+    assert len(vertices) == 500
+    for v in vertices:
+        assert abs(v["quality"] - (v["x"] + 2 * v["y"] + 3 * v["z"])) < 1e-5
+        assert abs(v["red"] - (120 + 100 * v["x"])) < 1.01 and abs(v["green"] - (120 + 100 * v["y"])) < 1.01
+    area = 0
+    for f in mesh["face"]:
+        corner = [vertices[k] for k in f["vertex_indices"]]
+        uv = [f["texcoord"][2 * k:2 * k + 2] for k in range(3)]
+        for v, (s, t) in zip(corner, uv):
+            assert abs(t - v["z"] / 2) < 1e-5
+            off = abs(s - math.atan2(v["y"], v["x"]) % (2 * math.pi) / (2 * math.pi))
+            assert min(off, abs(1 - off)) < 1e-3
+        (a, b), (c, d), (e, g) = uv
+        signed = ((c - a) * (g - b) - (e - a) * (d - b)) / 2
+        assert signed > 0, "no triangle straddles the seam"
+        area += signed
+        ring = f["red"] / 10
+        assert ring == round(ring) and abs(sum(v["z"] for v in corner) / 3 * 4 - 0.5 - ring) <= 0.51
+    assert abs(area - 1) < 1e-4
+
+
+def test_selected_faces_through_files(tmp_path):
+    """The shipped script: what was not selected comes out again, to the last bit."""
+    out = tmp_path / "o.ply"
+    run = run_server(f"{SAMPLES}/bumpy.ply", os.path.join(SCRIPTS, "ccdm_selected_faces.mlx"), out)
+    assert run.returncode == 0, run.stdout[-2000:]
+
+    def triangles(mesh):
+        points = [(v["x"], v["y"], v["z"]) for v in mesh["vertex"]]
+        return [tuple(points[k] for k in f["vertex_indices"]) for f in mesh["face"]]
+    before, after = triangles(plyfile.read_ply(f"{SAMPLES}/bumpy.ply")), triangles(plyfile.read_ply(out))
+    rest = [t for t in before if not sum(p[2] for p in t) > 0]
+    assert 0 < len(rest) < len(before) and after[:len(rest)] == rest
+    assert len(after) > len(rest)

@@ -67,3 +67,37 @@ def count_ply(path):
     """(vertices, faces) as the header says."""
     head = open(path, "rb").read(2000).decode("latin1")
     return tuple(int(re.search(rf"element {k} (\d+)", head)[1]) for k in ("vertex", "face"))
+
+
+TYPES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H", "uint16": "H",
+         "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f", "double": "d",
+         "float64": "d"}
+
+
+def read_ply(path):
+    """{element: [{property: value}]} of a little-endian binary file."""
+    data = open(path, "rb").read()
+    head, _, body = data.partition(b"end_header\n")
+    assert b"format binary_little_endian" in head
+    elements = []
+    for line in head.decode("latin1").splitlines():
+        word = line.split()
+        if word[0] == "element":
+            elements.append((word[1], int(word[2]), []))
+        elif word[0] == "property":
+            elements[-1][2].append((word[-1], [TYPES[t] for t in word[1:-1] if t != "list"]))
+    result, at = {}, 0
+
+    def take(kind, count=1):
+        nonlocal at
+        values = struct.unpack_from(f"<{count}{kind}", body, at)
+        at += struct.calcsize(f"<{count}{kind}")
+        return values
+    for name, count, properties in elements:
+        result[name] = []
+        for _ in range(count):
+            row = {}
+            for key, kinds in properties:
+                row[key] = take(kinds[0])[0] if len(kinds) == 1 else take(kinds[1], take(kinds[0])[0])
+            result[name].append(row)
+    return result
