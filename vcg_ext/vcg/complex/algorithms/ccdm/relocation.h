@@ -21,6 +21,7 @@ struct LocalStar {
     bool walled = false;           ///< wall is filled; otherwise there is none
     std::vector<int> id;           ///< outer vertices
     std::vector<Point> spoke;      ///< their positions relative to the centre
+    std::vector<double> squared;   ///< their squared distances from it
     std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
     std::vector<char> sectorStart; ///< a feature edge runs along spoke k
     std::vector<char> wall;        ///< the outer side of triangle k is a feature or boundary edge
@@ -145,16 +146,20 @@ private:
         else
             WalkAround(v);
         LocalStar &s = _star;
-        if (s.cross.size() < s.spoke.size())
+        if (s.cross.size() < s.spoke.size()) {
             s.cross.resize(s.spoke.size());
+            s.squared.resize(s.spoke.size());
+        }
         s.normal = Point(0, 0, 0);
         s.radius = 0;
         for (int k = 0; k < s.triangles; ++k) {
             s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
             s.normal += s.cross[k];
         }
-        for (int k = 0; k < s.spokes; ++k)
-            s.radius += Norm(s.spoke[k]);
+        for (int k = 0; k < s.spokes; ++k) {
+            s.squared[k] = SquaredNorm(s.spoke[k]);
+            s.radius += std::sqrt(s.squared[k]);
+        }
         s.radius /= s.spokes;
     }
 
@@ -402,11 +407,16 @@ private:
     {
         constexpr double least = 0.04; // the square of the cosine of 78 degrees
         bool all = true;
+        Point here = _star.spoke[0] - move;
+        double scale = SquaredNorm(_star.normal);
         for (int k = 0; k < _star.triangles && all; ++k) {
-            const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
+            const Point next = _star.spoke[_star.After(k)] - move, c = Cross(here, next);
             const Point &sector = sectors ? _sector[k] : _star.normal;
-            const double along = Dot(c, sector), scale = SquaredNorm(sector);
+            if (sectors)
+                scale = SquaredNorm(sector);
+            const double along = Dot(c, sector);
             all = along > 1e-4 * scale && along * along >= least * (SquaredNorm(c) * scale);
+            here = next;
         }
         if (all)
             return true;
