@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
-#include <vcg/complex/algorithms/ccdm/triangulation.h>
+#include <vcg/complex/algorithms/ccdm/verification.h>
 
 #include "support/meshes.h"
 
