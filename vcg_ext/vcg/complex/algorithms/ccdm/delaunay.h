@@ -28,7 +28,10 @@ struct Hinge {
     double Excess() const
     {
         const Point ap = p - a, aq = q - a, bp = p - b, bq = q - b;
-        const double cosA = Dot(ap, aq), cosB = Dot(bp, bq), sinA = Norm(Cross(ap, aq)), sinB = Norm(Cross(bp, bq));
+        const double cosA = Dot(ap, aq), cosB = Dot(bp, bq);
+        if (cosA >= 0 && cosB >= 0)
+            return 0; // neither angle is obtuse
+        const double sinA = Norm(Cross(ap, aq)), sinB = Norm(Cross(bp, bq));
         const double sine = sinA * cosB + cosA * sinB;
         const double scale = std::sqrt((cosA * cosA + sinA * sinA) * (cosB * cosB + sinB * sinB));
         if (!(sine < -1e-9 * scale))
