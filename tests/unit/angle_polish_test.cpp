@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
-#include <vcg/complex/algorithms/ccdm/triangulation.h>
+#include <vcg/complex/algorithms/ccdm/verification.h>
 
 #include "support/meshes.h"
 
@@ -43,7 +43,7 @@ TEST(SmallestAngleGradient, AgreesWithFiniteDifferences)
         if (std::count_if(side, side + 3, [&](double l) { return l < 1.1 * least; }) > 1 ||
             Norm(Cross(u, w)) < 0.2 * SquaredNorm(u))
             continue;
-        const Point gradient = SmallestAngleGradient(u, w, Cross(u, w));
+        const Point gradient = SmallestAngleGradient(u, w, Cross(u, w), side[0], side[1], side[2]);
         for (const Point &d : {Normalized(u), Normalized(w), Normalized(Cross(u, w))}) {
             const double step = 0.02 * std::sqrt(least);
             const double slope = (SmallestAngle(d * step, u, w) - SmallestAngle(d * -step, u, w)) / (2 * step);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vcg/complex/algorithms/ccdm/verification.h>
+
 #include "support/meshes.h"
 
 namespace {

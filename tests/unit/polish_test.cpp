@@ -6,6 +6,7 @@
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 #include <vcg/complex/algorithms/ccdm/extremes.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
+#include <vcg/complex/algorithms/ccdm/verification.h>
 
 #include "support/meshes.h"
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vcg/complex/algorithms/ccdm/verification.h>
+
 #include "support/meshes.h"
 
 namespace {

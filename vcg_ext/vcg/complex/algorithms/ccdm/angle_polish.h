@@ -12,11 +12,10 @@
 namespace vcg {
 namespace ccdm {
 
-/// Smallest angle of a triangle in radians, to 1e-4 (Abramowitz, Stegun 1964, 4.4.45: only square roots
-/// and products, the same bits on every machine).
-inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
+/// Smallest angle in radians of the triangle with these squared lengths of the sides, to 1e-4 (Abramowitz, Stegun
+/// 1964, 4.4.45: only square roots and products, the same bits on every machine).
+inline double SmallestAngle(double la, double lb, double lc)
 {
-    const double la = SquaredNorm(c - b), lb = SquaredNorm(a - c), lc = SquaredNorm(b - a);
     // It lies opposite the shortest side.
     const double shortest = std::min({la, lb, lc});
     const double product = la <= lb && la <= lc ? lb * lc : lb <= lc ? la * lc : la * lb;
@@ -26,19 +25,37 @@ inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
     return std::sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
 }
 
-/// How the smallest angle of the triangle (q, u, w) changes with q, at q = 0; `cross` is u x w. Where two or
-/// three angles are about equally small, the mean of what they say: the smallest alone would lead to and fro.
-inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &cross)
+inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
+{
+    return SmallestAngle(SquaredNorm(c - b), SquaredNorm(a - c), SquaredNorm(b - a));
+}
+
+/// How the smallest angle of the triangle (q, u, w) changes with q, at q = 0; `cross` is u x w, and uu, ww and uw are
+/// the squared lengths of u, w and w - u. Where two or three angles are about equally small, the mean of what they
+/// say: the smallest alone would lead to and fro.
+inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &cross, double uu, double ww, double uw)
 {
     constexpr double alike = 0.03; // of the squared length of the shortest side; measured
-    const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = SquaredNorm(u - w), area = Norm(cross);
+    const double area = Norm(cross);
     if (!(area > 0))
         return Point(0, 0, 0);
     // An angle is as small as the side opposite to it is short.
-    const double least = std::min({uu, ww, uw});
-    const auto weight = [&](double side) { return std::max(0.0, 1 - (side - least) / (alike * least)); };
-    const double atQ = weight(uw), atU = weight(ww), atW = weight(uu);
-    return (Cross(cross, u) * ((atQ - atU) / uu) + Cross(cross, w) * ((atW - atQ) / ww)) / ((atQ + atU + atW) * area);
+    const double least = std::min({uu, ww, uw}), scale = 1 / (alike * least);
+    const auto weight = [&](double side) { return std::max(0.0, 1 - (side - least) * scale); };
+    const double atQ = weight(uw), atU = weight(ww), atW = weight(uu), all = 1 / ((atQ + atU + atW) * area);
+    return Cross(cross, u) * ((atQ - atU) / uu * all) + Cross(cross, w) * ((atW - atQ) / ww * all);
+}
+
+/// Smallest angle of triangle k of a star; adds to the gradient `weight(angle)` times what the angle changes by.
+template <class Weight>
+double SmallestAngleAt(const LocalStar &star, int k, Point &gradient, const Weight &weight)
+{
+    const int next = star.After(k);
+    const Point &u = star.spoke[k], &w = star.spoke[next];
+    const double uu = star.squared[k], ww = star.squared[next], uw = SquaredNorm(w - u);
+    const double angle = SmallestAngle(uw, ww, uu);
+    gradient += SmallestAngleGradient(u, w, star.cross[k], uu, ww, uw) * weight(angle);
+    return angle;
 }
 
 /// Raises the sum of the smallest angles of all triangles by flips and small moves.
@@ -73,12 +90,9 @@ private:
     static double Sum(const LocalStar &s, const Point &q, Point *gradient)
     {
         double sum = 0;
-        for (int k = 0; k < s.triangles; ++k) {
-            const Point &u = s.spoke[k], &w = s.spoke[s.After(k)];
-            sum += SmallestAngle(q, u, w);
-            if (gradient != nullptr)
-                *gradient += SmallestAngleGradient(u, w, s.cross[k]);
-        }
+        for (int k = 0; k < s.triangles; ++k)
+            sum += gradient != nullptr ? SmallestAngleAt(s, k, *gradient, [](double) { return 1.0; })
+                                       : SmallestAngle(q, s.spoke[k], s.spoke[s.After(k)]);
         return sum;
     }
 

@@ -211,10 +211,11 @@ private:
             double sum = 0;
             for (int k = 0; k < star.triangles; ++k) {
                 const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
-                const double angle = SmallestAngle(q, a, b);
+                const double angle =
+                    gradient != nullptr
+                        ? SmallestAngleAt(star, k, *gradient, [](double x) { return x < LowAngle ? 3.0 : 1.0; })
+                        : SmallestAngle(q, a, b);
                 sum += angle - 2 * std::max(0.0, LowAngle - angle);
-                if (gradient != nullptr)
-                    *gradient += SmallestAngleGradient(a, b, star.cross[k]) * (angle < LowAngle ? 3.0 : 1.0);
                 sum -= 0.4 * _weight *
                        (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) +
                         stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));

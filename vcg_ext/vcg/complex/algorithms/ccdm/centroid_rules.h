@@ -82,7 +82,7 @@ struct CellCentroid {
             const double m2 = SquaredNorm(star.cross[k]);
             if (!(m2 > 0))
                 continue;
-            const double uu = SquaredNorm(u), ww = SquaredNorm(w), uw = Dot(u, w), m = std::sqrt(m2);
+            const double uu = star.squared[k], ww = star.squared[next], uw = Dot(u, w), m = std::sqrt(m2);
             if (uw < 0 && star.Wall(k)) {
                 // The bisectors of the spokes meet the edge from u to w at the shares s and t of its length.
                 const double s = 0.5 * uu / (uu - uw), t = 1 - 0.5 * ww / (ww - uw);

@@ -28,7 +28,10 @@ struct Hinge {
     double Excess() const
     {
         const Point ap = p - a, aq = q - a, bp = p - b, bq = q - b;
-        const double cosA = Dot(ap, aq), cosB = Dot(bp, bq), sinA = Norm(Cross(ap, aq)), sinB = Norm(Cross(bp, bq));
+        const double cosA = Dot(ap, aq), cosB = Dot(bp, bq);
+        if (cosA >= 0 && cosB >= 0)
+            return 0; // neither angle is obtuse
+        const double sinA = Norm(Cross(ap, aq)), sinB = Norm(Cross(bp, bq));
         const double sine = sinA * cosB + cosA * sinB;
         const double scale = std::sqrt((cosA * cosA + sinA * sinA) * (cosB * cosB + sinB * sinB));
         if (!(sine < -1e-9 * scale))
@@ -90,8 +93,12 @@ public:
             flips += t.flips;
         }
         last.Run(r, Everywhere);
+        _crossing.swap(last.flipped);
         return flips + last.flips;
     }
+
+    /// Those flips of the last run that were not inside one patch.
+    const std::vector<Flipped> &Crossing() const { return _crossing; }
 
 private:
     struct Entry {
@@ -104,6 +111,7 @@ private:
     // The edges of one patch, and what its flips leave to do across its border.
     struct Task {
         std::vector<Entry> queue, left;
+        std::vector<Flipped> flipped; // filled for the edges across borders
         long long flips = 0;
 
         void Run(Remesh &r, int patch)
@@ -123,6 +131,8 @@ private:
                 if (h.Excess() != top.excess || !MayFlip(r, top.side, h))
                     continue;
                 const int t = SideTriangle(top.side), u = SideTriangle(r.mesh.Mate(top.side));
+                if (patch == Everywhere)
+                    flipped.push_back({r.mesh.Tail(top.side), r.mesh.Head(top.side), h.apexA, h.apexB});
                 r.mesh.Flip(top.side);
                 ++flips;
                 for (const int k : {t, u})
@@ -149,6 +159,7 @@ private:
 
     Workers &_workers;
     std::vector<std::vector<Entry>> _found;
+    std::vector<Flipped> _crossing;
 
     std::vector<Entry> Find(const Remesh &r)
     {

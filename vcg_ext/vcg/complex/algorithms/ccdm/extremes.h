@@ -146,7 +146,8 @@ private:
                 for (const int sweeps : {0, Sweeps}) {
                     if (sweeps > 0)
                         _patch.Relax(sweeps, [&](int o) { return o == v || _settled[o] != 0; });
-                    if (_patch.WorstCosine() <= cosine && _patch.WorstTurnCosine() >= turn &&
+                    // What is wrong is so next to the vertex, most often.
+                    if (_patch.KeepsAt(v, cosine, turn) && _patch.Keeps(cosine, turn) &&
                         Distance(r) < Gain * distance && Stray() <= before)
                         return v;
                 }

@@ -74,41 +74,40 @@ struct Foot {
 /// that p lies in (Ericson 2005, "Real-time collision detection", section 5.1.5).
 inline Foot NearestOnTriangle(const Point &origin, const Point &e1, const Point &e2, const Point &p)
 {
-    auto at = [&](double w1, double w2) {
-        Foot r;
-        r.point = origin + e1 * w1 + e2 * w2;
-        r.weight[0] = 1 - w1 - w2;
-        r.weight[1] = w1;
-        r.weight[2] = w2;
-        r.squaredDistance = SquaredNorm(p - r.point);
-        return r;
-    };
-    auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
-    const Point ap = p - origin;
-    const double d1 = Dot(e1, ap), d2 = Dot(e2, ap);
-    if (d1 <= 0 && d2 <= 0)
-        return at(0, 0);
-    const Point bp = ap - e1;
-    const double d3 = Dot(e1, bp), d4 = Dot(e2, bp);
-    if (d3 >= 0 && d4 <= d3)
-        return at(1, 0);
-    const Point cp = ap - e2;
-    const double d5 = Dot(e1, cp), d6 = Dot(e2, cp);
-    if (d6 >= 0 && d5 <= d6)
-        return at(0, 1);
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0)
-        return at(ratio(d1, d1 - d3), 0);
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0)
-        return at(0, ratio(d2, d2 - d6));
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        const double s = ratio(d4 - d3, (d4 - d3) + (d5 - d6));
-        return at(1 - s, s);
+    const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
+    const Point ap = p - origin, bp = ap - e1, cp = ap - e2;
+    const double d1 = Dot(e1, ap), d2 = Dot(e2, ap), d3 = Dot(e1, bp), d4 = Dot(e2, bp), d5 = Dot(e1, cp),
+                 d6 = Dot(e2, cp);
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4, sum = va + vb + vc;
+    double w1 = 0, w2 = 0;
+    // Most often the foot lies inside, and one test tells that instead of nine.
+    if (std::min({va, vb, vc}) > 0) {
+        w1 = vb / sum;
+        w2 = vc / sum;
+    } else if (d1 <= 0 && d2 <= 0) {
+        // the origin
+    } else if (d3 >= 0 && d4 <= d3) {
+        w1 = 1;
+    } else if (d6 >= 0 && d5 <= d6) {
+        w2 = 1;
+    } else if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+        w1 = ratio(d1, d1 - d3);
+    } else if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+        w2 = ratio(d2, d2 - d6);
+    } else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        w2 = ratio(d4 - d3, (d4 - d3) + (d5 - d6));
+        w1 = 1 - w2;
+    } else if (sum > 0) {
+        w1 = vb / sum;
+        w2 = vc / sum;
     }
-    const double sum = va + vb + vc;
-    return sum > 0 ? at(vb / sum, vc / sum) : at(0, 0);
+    Foot r;
+    r.point = origin + e1 * w1 + e2 * w2;
+    r.weight[0] = 1 - w1 - w2;
+    r.weight[1] = w1;
+    r.weight[2] = w2;
+    r.squaredDistance = SquaredNorm(p - r.point);
+    return r;
 }
 
 /// Morton code of a point of the unit cube, 21 bits an axis.

@@ -14,6 +14,7 @@
 #include <vcg/complex/algorithms/ccdm/geometry.h>
 #include <vcg/complex/algorithms/ccdm/parameters.h>
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
+#include <vcg/complex/algorithms/ccdm/verification.h>
 
 namespace vcg {
 namespace ccdm {
@@ -280,7 +281,7 @@ private:
                           " several sheets (its faces form more than one fan)");
         if (Orient())
             tables.Build(vertices, mesh.face);
-        const Verification proof = VerifyTriangulation(tables);
+        const Verification proof(tables, workers);
         topology = proof.counts;
         return proof.fault.empty() || Refuse(proof.fault);
     }

@@ -104,10 +104,8 @@ private:
 
     void Flip()
     {
-        const long long flips = _flipper.Run(_remesh);
-        if (flips > 0)
-            _schedule.Changed();
-        _report.flips += flips;
+        _report.flips += _flipper.Run(_remesh);
+        _schedule.Changed(_flipper.Crossing());
     }
 
     void LevelChords(double minAngle)

@@ -120,6 +120,19 @@ private:
     }
 };
 
+/// Calls visit(first, last, chunk) for equal runs of [0, count), on several threads; `chunks(count)` of
+/// them.
+struct Chunks {
+    static constexpr int Size = 4096;
+    static int Count(int count) { return (count + Size - 1) / Size; }
+
+    template <class Visit>
+    static void For(Workers &workers, int count, Visit visit)
+    {
+        workers.For(Count(count), [&](int c, int) { visit(c * Size, std::min(count, (c + 1) * Size), c); });
+    }
+};
+
 } // namespace ccdm
 } // namespace vcg
 

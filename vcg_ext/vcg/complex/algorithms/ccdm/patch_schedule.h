@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,17 +37,9 @@ inline int PatchOfHinge(const Remesh &r, Side s)
     return inside ? patch : -1;
 }
 
-/// Calls visit(first, last, chunk) for equal runs of [0, count), on several threads; `chunks(count)` of
-/// them.
-struct Chunks {
-    static constexpr int Size = 4096;
-    static int Count(int count) { return (count + Size - 1) / Size; }
-
-    template <class Visit>
-    static void For(Workers &workers, int count, Visit visit)
-    {
-        workers.For(Count(count), [&](int c, int) { visit(c * Size, std::min(count, (c + 1) * Size), c); });
-    }
+/// A flip: edge pq has become edge ab.
+struct Flipped {
+    int p, q, a, b;
 };
 
 /// Runs work on the vertices and edges of a remesh, patch by patch on several threads, in an order that
@@ -58,6 +51,23 @@ public:
 
     /// The edges have changed since the last call of ForVertices.
     void Changed() { _valid = false; }
+
+    /// They have changed by flips: these, and any that have all four vertices in one patch.
+    void Changed(const std::vector<Flipped> &flips)
+    {
+        if (!_valid)
+            return;
+        bool other = false;
+        for (const Flipped &f : flips) {
+            other = Count(f.p, f.q, -2) || other;
+            other = Count(f.a, f.b, 2) || other;
+        }
+        for (const Flipped &f : flips)
+            for (const int v : {f.p, f.q, f.a, f.b})
+                _border[v].store(AtBorder(v), std::memory_order_relaxed);
+        if (other)
+            Separate();
+    }
 
     /// Calls work(vertex, worker) once for every vertex. It may read the star of the vertex and change the
     /// vertex. First come the vertices inside the patches, all patches at a time; then those at their
@@ -111,9 +121,16 @@ public:
         });
         for (const std::vector<Side> &sides : moved)
             rest.insert(rest.end(), sides.begin(), sides.end());
-        for (const Side s : rest)
+        std::vector<Flipped> flipped;
+        for (const Side s : rest) {
+            if (m.Mate(s) == NoSide)
+                continue;
+            const Flipped edge = {m.Tail(s), m.Head(s), m.Opposite(s), m.Opposite(m.Mate(s))};
             flip(s);
-        Changed();
+            if (m.Head(s) != edge.q)
+                flipped.push_back(edge);
+        }
+        Changed(flipped);
     }
 
 private:
@@ -126,6 +143,7 @@ private:
     std::vector<std::vector<Side>> _list;
 
     using Pair = std::pair<int, int>;
+    std::map<Pair, int> _touching; // sides of triangles that run from one patch to the other
 
     void FindBorders()
     {
@@ -154,22 +172,45 @@ private:
                     _border[w].store(1, std::memory_order_relaxed);
                     pairs.emplace_back(std::min(p, q), std::max(p, q));
                 }
-            std::sort(pairs.begin(), pairs.end());
-            pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
         });
-        std::vector<Pair> all;
+        _touching.clear();
         for (const std::vector<Pair> &pairs : touching)
-            all.insert(all.end(), pairs.begin(), pairs.end());
-        Separate(Patches::Count(count), all);
+            for (const Pair &pair : pairs)
+                ++_touching[pair];
+        Separate();
         _valid = true;
     }
 
-    // Colours the patches so that no two that touch have the same colour, each with the first that is free.
-    void Separate(int patches, const std::vector<Pair> &touching)
+    // Counts an edge's sides between two patches. Whether patches have met or parted.
+    bool Count(int v, int w, int sides)
     {
+        const int p = Patches::Of(v), q = Patches::Of(w);
+        if (p == q)
+            return false;
+        int &count = _touching[{std::min(p, q), std::max(p, q)}];
+        const bool before = count > 0;
+        count += sides;
+        return before != (count > 0);
+    }
+
+    std::uint8_t AtBorder(int v) const
+    {
+        bool border = false;
+        _remesh.mesh.VisitSpokes(v, [&](int o, Side) {
+            border = Patches::Of(o) != Patches::Of(v);
+            return !border;
+        });
+        return border ? 1 : 0;
+    }
+
+    // Colours the patches so that no two that touch have the same colour, each with the first that is free.
+    void Separate()
+    {
+        const int patches = Patches::Count(_size);
         std::vector<std::vector<int>> below(patches);
-        for (const auto &[p, q] : touching)
-            below[q].push_back(p);
+        for (const auto &[pair, sides] : _touching)
+            if (sides > 0)
+                below[pair.second].push_back(pair.first);
         std::vector<int> colour(patches, 0);
         std::vector<char> taken;
         _apart.clear();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/trial_patch.h>
@@ -67,16 +68,18 @@ public:
     void Shake(std::uint64_t seed, int places, int rings = 3)
     {
         const std::vector<int> left = _bad;
+        std::unordered_set<int> vain; // triangles of patches that no shake has helped: theirs would be nearly the same
         Random random(seed);
         for (const int t : left) {
             const Triangle &T = _remesh.mesh.triangle[t];
             const bool free = std::all_of(std::begin(T.v), std::end(T.v),
                                           [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
-            if (!free || !(LargestCosine(t) > std::cos(_searched * Pi / 180)))
+            if (!free || vain.count(t) > 0 || !(LargestCosine(t) > std::cos(_searched * Pi / 180)))
                 continue;
             if (places-- == 0)
                 break;
-            ShakeAround(t, rings, random);
+            if (!ShakeAround(t, rings, random))
+                vain.insert(_patch.Triangles().begin(), _patch.Triangles().end());
         }
         LookAroundChanged();
     }
@@ -174,49 +177,53 @@ private:
         return improved;
     }
 
-    struct Fitness {
-        double cosine = -1; // of the smallest angle
-        double stray = 0;   // largest squared distance of a centroid, in squared edges
-        double turn = 1;    // cosine of the sharpest turn
-    };
-
-    Fitness FitnessOfPatch() const
+    // Largest squared distance of a centroid of the patch from the surface, in squared edges.
+    double StrayOfPatch() const
     {
-        Fitness f = {_patch.WorstCosine(), 0, _patch.WorstTurnCosine()};
+        double stray = 0;
         for (const int t : _patch.Triangles()) {
             const Triangle &T = _remesh.mesh.triangle[t];
             const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
             const int *home = std::find_if(std::begin(T.v), std::end(T.v),
                                            [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
             if (home != std::end(T.v))
-                f.stray = std::max(f.stray,
-                                   SquaredDistanceNear(_model, _remesh, *home, (a + b + c) / 3) / SquaredNorm(b - a));
+                stray =
+                    std::max(stray, SquaredDistanceNear(_model, _remesh, *home, (a + b + c) / 3) / SquaredNorm(b - a));
         }
-        return f;
+        return stray;
     }
 
-    void ShakeAround(int t, int rings, Random &random)
+    // Whether that helped.
+    bool ShakeAround(int t, int rings, Random &random)
     {
         _patch.Take(t, rings);
         const std::vector<int> &region = _patch.Vertices();
         _changed.insert(_changed.end(), region.begin(), region.end());
-        const Fitness before = FitnessOfPatch();
-        const double wanted = std::cos(_searched * Pi / 180);
+        const double cosine = _patch.WorstCosine(), turn = std::min(_patch.WorstTurnCosine(), 0.0);
+        const double stray = std::max(StrayOfPatch(), _stray);
         for (int attempt = 0; attempt < Shakes; ++attempt) {
             _patch.Sweep(Perturbation{0.2 + 0.05 * attempt, random.Bits()});
             _patch.Relax(8, [](int) { return false; });
-            for (int round = 0; round < 4; ++round)
-                for (const int u : _patch.Triangles())
-                    if (LargestCosine(u) > wanted)
-                        for (const int v : _remesh.mesh.triangle[u].v)
-                            if (_patch.Contains(v))
-                                Shift(v);
-            const Fitness after = FitnessOfPatch();
-            if (after.cosine < before.cosine - 1e-3 && after.stray <= std::max(before.stray, _stray) &&
-                after.turn >= std::min(before.turn, 0.0))
-                return;
+            for (int round = 0; round < 4 && ShiftAllOfPatch(); ++round)
+                ;
+            if (_patch.WorstCosine() < cosine - 1e-3 && _patch.WorstTurnCosine() >= turn && StrayOfPatch() <= stray)
+                return true;
             _patch.Restore();
         }
+        return false;
+    }
+
+    // Whether any vertex has moved.
+    bool ShiftAllOfPatch()
+    {
+        const double wanted = std::cos(_searched * Pi / 180);
+        bool moved = false;
+        for (const int t : _patch.Triangles())
+            if (LargestCosine(t) > wanted)
+                for (const int v : _remesh.mesh.triangle[t].v)
+                    if (_patch.Contains(v))
+                        moved = Shift(v) || moved;
+        return moved;
     }
 
     double LargestCosineAround(const int (&vertex)[4])
@@ -307,21 +314,15 @@ private:
             return false;
         _remesh.mesh.GatherStar(v, _star);
         Point &x = _remesh.position[v];
-        const auto score = [&](const LocalStar &, const Point &q) {
+        return _relocator.Search(v, 0.5, 0.02, 4, [&](const LocalStar &, const Point &q, double wanted) {
             const Point stay = x;
             x += q;
             double worst = 1;
-            for (const Side c : _star.corner)
-                worst = std::min(worst, SharpestTurnCosine(_remesh, SideTriangle(c)));
+            for (std::size_t k = 0; k < _star.corner.size() && worst > wanted; ++k)
+                worst = std::min(worst, SharpestTurnCosine(_remesh, SideTriangle(_star.corner[k])));
             x = stay;
             return worst;
-        };
-        bool improved = false;
-        for (double size = 0.5; size > 0.02; size *= 0.5)
-            for (int k = 0; k < 6; ++k)
-                for (int repeat = 0; repeat < 4 && _relocator.TryShift(v, size, k, score); ++repeat)
-                    improved = true;
-        return improved;
+        });
     }
 
     // Pattern search in six directions of the tangent plane.
@@ -332,18 +333,13 @@ private:
         const Point start = _remesh.position[v];
         const Place place = _remesh.place[v];
         const double rho = _remesh.rho[v];
-        const auto score = [](const LocalStar &s, const Point &q) {
-            double worst = -1;
-            for (int i = 0; i < s.triangles; ++i)
-                worst = std::max(worst, ccdm::LargestCosine(q, s.spoke[i], s.spoke[s.After(i)]));
-            return -worst;
+        const auto score = [](const LocalStar &s, const Point &q, double wanted) {
+            double least = 1;
+            for (int i = 0; i < s.triangles && least > wanted; ++i)
+                least = std::min(least, -ccdm::LargestCosine(q, s.spoke[i], s.spoke[s.After(i)]));
+            return least;
         };
-        bool improved = false;
-        for (double size = 0.2; size > 0.02; size *= 0.5)
-            for (int k = 0; k < 6; ++k)
-                for (int repeat = 0; repeat < 8 && _relocator.TryShift(v, size, k, score); ++repeat)
-                    improved = true;
-        if (!improved)
+        if (!_relocator.Search(v, 0.2, 0.02, 8, score))
             return false;
         _changed.push_back(v);
         _remesh.mesh.GatherStar(v, _star);

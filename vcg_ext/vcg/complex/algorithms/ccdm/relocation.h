@@ -21,6 +21,7 @@ struct LocalStar {
     bool walled = false;           ///< wall is filled; otherwise there is none
     std::vector<int> id;           ///< outer vertices
     std::vector<Point> spoke;      ///< their positions relative to the centre
+    std::vector<double> squared;   ///< their squared distances from it
     std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
     std::vector<char> sectorStart; ///< a feature edge runs along spoke k
     std::vector<char> wall;        ///< the outer side of triangle k is a feature or boundary edge
@@ -60,21 +61,41 @@ public:
         return Move(v, displacement(_star, v), [](const Point &) { return true; });
     }
 
-    /// Moves v by `size` times its mean edge length in the k-th of six directions of its tangent plane if
-    /// score(star, position relative to v) rises by that. For searches of single vertices.
+    /// Pattern search for single vertices: moves v by `size` times its mean edge length in six directions of its
+    /// tangent plane, up to `repeats` times each, as long as a score rises by that; then by half of that, down to
+    /// `least`. score(star, position relative to v, wanted) may return anything that is not above `wanted` if the
+    /// score is not. Returns whether v has moved.
     template <class Score>
-    bool TryShift(int v, double size, int k, Score score)
+    bool Search(int v, double size, double least, int repeats, const Score &score)
     {
         constexpr double half = 0.5, root = 0.8660254037844386; // cosine and sine of 60 degrees
         constexpr double direction[6][2] = {{1, 0},  {half, root},   {-half, root},
                                             {-1, 0}, {-half, -root}, {half, -root}};
-        Gather(v);
-        const Point step = TangentStep(_star, direction[k][0], direction[k][1]) * (size * _star.radius);
-        const double wanted = score(_star, Point(0, 0, 0)) + 1e-6;
-        // Finding the surface costs most: a free vertex is to gain by the step as such.
-        if (_remesh.place[v].kind == VertexKind::Free && !(score(_star, step) > wanted))
-            return false;
-        return Move(v, step, [&](const Point &q) { return score(_star, q) > wanted; });
+        const bool free = _remesh.place[v].kind == VertexKind::Free;
+        bool moved = false, gathered = false;
+        double wanted = 0;
+        Point t1, t2;
+        const auto tryShift = [&](int k) {
+            if (!gathered) {
+                Gather(v);
+                TangentAxes(_star, t1, t2);
+                wanted = score(_star, Point(0, 0, 0), -1e300) + 1e-6;
+                gathered = true;
+            }
+            const Point step = (t1 * direction[k][0] + t2 * direction[k][1]) * (size * _star.radius);
+            // Finding the surface costs most: a free vertex is to gain by the step as such.
+            if (free && !(score(_star, step, wanted) > wanted))
+                return false;
+            if (!Move(v, step, [&](const Point &q) { return score(_star, q, wanted) > wanted; }))
+                return false;
+            gathered = false;
+            return true;
+        };
+        for (; size > least; size *= 0.5)
+            for (int k = 0; k < 6; ++k)
+                for (int repeat = 0; repeat < repeats && tryShift(k); ++repeat)
+                    moved = true;
+        return moved;
     }
 
     /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score if
@@ -99,9 +120,8 @@ public:
     /// The vector (x, y) in the tangent plane of a star.
     static Point TangentStep(const LocalStar &star, double x, double y)
     {
-        const Point n = Normalized(star.normal);
-        const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
-        const Point t1 = Normalized(Cross(n, axis)), t2 = Cross(n, t1);
+        Point t1, t2;
+        TangentAxes(star, t1, t2);
         return t1 * x + t2 * y;
     }
 
@@ -109,6 +129,14 @@ private:
     const Model &_model;
     Remesh &_remesh;
     LocalStar _star;
+
+    static void TangentAxes(const LocalStar &star, Point &t1, Point &t2)
+    {
+        const Point n = Normalized(star.normal);
+        const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
+        t1 = Normalized(Cross(n, axis));
+        t2 = Cross(n, t1);
+    }
 
     void Gather(int v)
     {
@@ -118,16 +146,20 @@ private:
         else
             WalkAround(v);
         LocalStar &s = _star;
-        if (s.cross.size() < s.spoke.size())
+        if (s.cross.size() < s.spoke.size()) {
             s.cross.resize(s.spoke.size());
+            s.squared.resize(s.spoke.size());
+        }
         s.normal = Point(0, 0, 0);
         s.radius = 0;
         for (int k = 0; k < s.triangles; ++k) {
             s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
             s.normal += s.cross[k];
         }
-        for (int k = 0; k < s.spokes; ++k)
-            s.radius += Norm(s.spoke[k]);
+        for (int k = 0; k < s.spokes; ++k) {
+            s.squared[k] = SquaredNorm(s.spoke[k]);
+            s.radius += std::sqrt(s.squared[k]);
+        }
         s.radius /= s.spokes;
     }
 
@@ -375,11 +407,16 @@ private:
     {
         constexpr double least = 0.04; // the square of the cosine of 78 degrees
         bool all = true;
+        Point here = _star.spoke[0] - move;
+        double scale = SquaredNorm(_star.normal);
         for (int k = 0; k < _star.triangles && all; ++k) {
-            const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
+            const Point next = _star.spoke[_star.After(k)] - move, c = Cross(here, next);
             const Point &sector = sectors ? _sector[k] : _star.normal;
-            const double along = Dot(c, sector), scale = SquaredNorm(sector);
+            if (sectors)
+                scale = SquaredNorm(sector);
+            const double along = Dot(c, sector);
             all = along > 1e-4 * scale && along * along >= least * (SquaredNorm(c) * scale);
+            here = next;
         }
         if (all)
             return true;

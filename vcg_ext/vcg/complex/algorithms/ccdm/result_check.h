@@ -10,6 +10,7 @@
 
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
+#include <vcg/complex/algorithms/ccdm/verification.h>
 
 namespace vcg {
 namespace ccdm {
@@ -23,7 +24,7 @@ struct ResultCheck {
     ResultCheck(const Model &model, const Remesh &remesh) : ResultCheck(model, remesh, *std::make_unique<Workers>(1)) {}
     ResultCheck(const Model &model, const Remesh &remesh, Workers &workers)
     {
-        const Verification v = VerifyTriangulation(remesh.mesh);
+        const Verification v(remesh.mesh, workers);
         topology = v.counts;
         fault = v.fault;
         if (!fault.empty())

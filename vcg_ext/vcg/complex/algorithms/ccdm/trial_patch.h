@@ -137,6 +137,27 @@ public:
         return worst;
     }
 
+    /// Whether no smallest angle of the patch has a larger cosine, and no edge turns by a smaller one.
+    bool Keeps(double cosine, double turn) const
+    {
+        return std::all_of(_triangle.begin(), _triangle.end(),
+                           [&](int t) { return LargestCosine(_remesh, t) <= cosine; }) &&
+               std::all_of(_triangle.begin(), _triangle.end(),
+                           [&](int t) { return SharpestTurnCosine(_remesh, t) >= turn; });
+    }
+
+    /// The same for the triangles of one vertex.
+    bool KeepsAt(int v, double cosine, double turn) const
+    {
+        bool keeps = true;
+        _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
+            keeps = LargestCosine(_remesh, SideTriangle(s)) <= cosine &&
+                    SharpestTurnCosine(_remesh, SideTriangle(s)) >= turn;
+            return keeps;
+        });
+        return keeps;
+    }
+
 private:
     struct State {
         int incident;
