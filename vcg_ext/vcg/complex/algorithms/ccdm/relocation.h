@@ -74,7 +74,7 @@ public:
         const bool free = _remesh.place[v].kind == VertexKind::Free;
         bool moved = false, gathered = false;
         double wanted = 0;
-        Point t1, t2;
+        Point t1(0, 0, 0), t2(0, 0, 0);
         const auto tryShift = [&](int k) {
             if (!gathered) {
                 Gather(v);
@@ -120,7 +120,7 @@ public:
     /// The vector (x, y) in the tangent plane of a star.
     static Point TangentStep(const LocalStar &star, double x, double y)
     {
-        Point t1, t2;
+        Point t1(0, 0, 0), t2(0, 0, 0);
         TangentAxes(star, t1, t2);
         return t1 * x + t2 * y;
     }
