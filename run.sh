@@ -144,9 +144,12 @@ demo() {
 check_style() {
     say "clang-format"
     git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+    say "each header by itself"
+    cmake --build build --target ccdm_vcg_ext_verify_interface_header_sets >build/headers.log 2>&1 ||
+        { grep -E 'error' build/headers.log; fail "a header does not compile by itself"; }
     say "clang-tidy"
-    local sources=(vcg_ext/apps/ccdm_remesh/*.cpp sample_meshes/generator/*.cpp tests/unit/*.cpp)
-    printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build --quiet >build/clang-tidy.log 2>/dev/null ||
+    /usr/bin/python3 tests/style/tidy.py build ccdm_mesh_io ccdm_remesh make_sample_meshes parts_tests remesher_tests \
+        >build/clang-tidy.log 2>&1 ||
         { grep -E 'error|warning' build/clang-tidy.log | sort -u | head -40; fail "clang-tidy found something"; }
 }
 

@@ -248,3 +248,5 @@ void FilterCcdmPlugin::Say(const QString &line, Level level)
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterCcdmPlugin)
+
+#include "moc_filter_ccdm.cpp" // here, it needs no translation unit of its own

@@ -10,6 +10,7 @@
 
 #include "support/meshes.h"
 
+namespace angle_polish_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -75,3 +76,4 @@ TEST(AnglePolish, RaisesTheMeanSmallestAngleAndKeepsTheSurface)
 }
 
 } // namespace
+} // namespace angle_polish_test

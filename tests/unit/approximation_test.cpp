@@ -10,6 +10,7 @@
 
 #include "support/meshes.h"
 
+namespace approximation_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -134,3 +135,4 @@ TEST(SurfaceOffset, LeavesFeaturesWhereTheyAre)
 }
 
 } // namespace
+} // namespace approximation_test

@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace ccdm_remeshing_test {
 namespace {
 
 using meshes::MeshD;
@@ -208,3 +209,4 @@ TEST(CCDMRemeshing, MarkedEdgesBecomeFeatures)
 }
 
 } // namespace
+} // namespace ccdm_remeshing_test

@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 
+namespace centroid_rules_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -207,3 +208,4 @@ TEST(CurveCentroid, SpacesACurveMoreEvenlyThanTheStar)
 }
 
 } // namespace
+} // namespace centroid_rules_test

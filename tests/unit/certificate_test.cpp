@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 
+namespace certificate_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -163,3 +164,4 @@ TEST(Certificate, ListsEveryTriangleBelowTheTarget)
 }
 
 } // namespace
+} // namespace certificate_test

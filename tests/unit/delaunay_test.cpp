@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace delaunay_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -103,3 +104,4 @@ TEST(Hinge, RefusesFolds)
 }
 
 } // namespace
+} // namespace delaunay_test

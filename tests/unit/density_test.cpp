@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace density_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -110,3 +111,4 @@ TEST(LimitGradation, BoundsTheGrowthOfTheSpacing)
 }
 
 } // namespace
+} // namespace density_test

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace edge_length_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -56,3 +57,4 @@ TEST(EdgeLength, MeanCountsEveryEdgeOnce)
 }
 
 } // namespace
+} // namespace edge_length_test

@@ -11,6 +11,7 @@
 
 #include "support/meshes.h"
 
+namespace even_chords_test {
 namespace {
 
 using vcg::ccdm::Pi;
@@ -90,3 +91,4 @@ TEST(EvenChords, LeavesAloneWhatDoesNotStandOut)
 }
 
 } // namespace
+} // namespace even_chords_test

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace false_creases_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -112,3 +113,4 @@ TEST(FalseCreases, AShortFragmentIsDroppedUnlessItIsMarked)
 }
 
 } // namespace
+} // namespace false_creases_test

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace feature_graph_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -141,3 +142,4 @@ TEST(FeatureGraph, CreaseRunsAroundAFaceWithoutArea)
 }
 
 } // namespace
+} // namespace feature_graph_test

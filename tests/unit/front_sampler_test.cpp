@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace front_sampler_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -107,3 +108,4 @@ TEST(FrontSampler, TheSameSeedGivesTheSamePoints)
 }
 
 } // namespace
+} // namespace front_sampler_test

@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace initial_mesh_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -100,3 +101,4 @@ TEST(InitialMesh, StopsWhenAsked)
 }
 
 } // namespace
+} // namespace initial_mesh_test

@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace input_mesh_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -111,3 +112,4 @@ TEST(InputMesh, RestoresCoordinates)
 }
 
 } // namespace
+} // namespace input_mesh_test

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace mesh_quality_test {
 namespace {
 
 using meshes::MeshD;
@@ -177,3 +178,4 @@ TEST(MeshQuality, DistanceBetweenMeshTypes)
 }
 
 } // namespace
+} // namespace mesh_quality_test

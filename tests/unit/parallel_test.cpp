@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 
+namespace parallel_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -67,3 +68,4 @@ TEST(PatchSchedule, VisitsEveryVertexOnceAndNeverTwoNeighboursAtATime)
 }
 
 } // namespace
+} // namespace parallel_test

@@ -10,6 +10,7 @@
 
 #include "support/meshes.h"
 
+namespace polish_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -170,3 +171,4 @@ TEST(ResultCheck, AllowsTheFoldsOfAKnifeEdge)
 }
 
 } // namespace
+} // namespace polish_test

@@ -8,6 +8,7 @@
 
 #include "support/meshes.h"
 
+namespace provenance_test {
 namespace {
 
 using meshes::MeshD;
@@ -184,3 +185,4 @@ TEST(Boundary, SmoothRoundsCornersOff)
 }
 
 } // namespace
+} // namespace provenance_test

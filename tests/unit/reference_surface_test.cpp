@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace reference_surface_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -142,3 +143,4 @@ TEST(ReferenceSurface, JoinsFacesOfOneSheetOnly)
 }
 
 } // namespace
+} // namespace reference_surface_test

@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace refinement_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -54,3 +55,4 @@ TEST(Refinement, SplitsAndSorts)
 }
 
 } // namespace
+} // namespace refinement_test

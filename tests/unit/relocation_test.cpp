@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 
+namespace relocation_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -237,3 +238,4 @@ TEST(Perturbation, StepsLieInTheTangentPlaneWithinLambda)
 }
 
 } // namespace
+} // namespace relocation_test

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 
+namespace sampling_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -113,3 +114,4 @@ TEST(SampleFaces, NeverPicksAFaceWithoutArea)
 }
 
 } // namespace
+} // namespace sampling_test

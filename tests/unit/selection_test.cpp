@@ -13,6 +13,7 @@
 
 #include "support/meshes.h"
 
+namespace selection_test {
 namespace {
 
 using meshes::MeshD;
@@ -191,3 +192,4 @@ TEST(Selection, LeavesABrokenRestAlone)
 }
 
 } // namespace
+} // namespace selection_test

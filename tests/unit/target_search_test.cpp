@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace target_search_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -305,3 +306,4 @@ TEST(TargetSearch, IsTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
+} // namespace target_search_test

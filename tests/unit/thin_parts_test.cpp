@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace thin_parts_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -129,3 +130,4 @@ TEST(ThinParts, TheReportTellsPlaceWidthSpacingAndCount)
 }
 
 } // namespace
+} // namespace thin_parts_test

@@ -7,6 +7,7 @@
 
 #include "support/meshes.h"
 
+namespace trial_patch_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -72,3 +73,4 @@ TEST(TrialPatch, LeavesFeaturesAndFixedVerticesAlone)
 }
 
 } // namespace
+} // namespace trial_patch_test

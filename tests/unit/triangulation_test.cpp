@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 
+namespace triangulation_test {
 namespace {
 
 using namespace vcg::ccdm;
@@ -191,3 +192,4 @@ TEST(Verification, FindsPlantedFaults)
 }
 
 } // namespace
+} // namespace triangulation_test
