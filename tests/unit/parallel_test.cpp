@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <vcg/complex/algorithms/ccdm/delaunay.h>
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 
 #include "support/meshes.h"
@@ -65,6 +66,39 @@ TEST(PatchSchedule, VisitsEveryVertexOnceAndNeverTwoNeighboursAtATime)
     EXPECT_EQ(clashes, 0);
     for (const int n : visits)
         EXPECT_EQ(n, 1);
+}
+
+TEST(PatchSchedule, FollowsFlipsAsIfItLookedAnew)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(5), 10242, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Workers alone(1);
+    PatchSchedule schedule(r, alone);
+    const auto order = [](PatchSchedule &s) {
+        std::vector<int> visited;
+        s.ForVertices([&](int v, int) { visited.push_back(v); });
+        return visited;
+    };
+    const std::vector<int> before = order(schedule);
+    Random random(3);
+    for (int round = 0; round < 5; ++round) {
+        std::vector<Flipped> flips;
+        for (int i = 0; i < 2000; ++i) {
+            const int t = static_cast<int>(random.Unit() * r.mesh.TriangleCount());
+            const Side s = MakeSide(t, static_cast<int>(3 * random.Unit()));
+            const Hinge h(r, s);
+            if (!MayFlip(r, s, h))
+                continue;
+            if (PatchOfHinge(r, s) < 0)
+                flips.push_back({r.mesh.Tail(s), r.mesh.Head(s), h.apexA, h.apexB});
+            r.mesh.Flip(s);
+        }
+        EXPECT_GT(flips.size(), 50U);
+        schedule.Changed(flips);
+        PatchSchedule anew(r, alone);
+        EXPECT_EQ(order(schedule), order(anew));
+    }
+    EXPECT_NE(order(schedule), before);
 }
 
 } // namespace

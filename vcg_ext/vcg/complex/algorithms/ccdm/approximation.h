@@ -213,7 +213,8 @@ private:
                 const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
                 const double angle =
                     gradient != nullptr
-                        ? SmallestAngleAt(star, k, *gradient, [](double small) { return small < LowAngle ? 3.0 : 1.0; })
+                        ? SmallestAngleAt(star, k, *gradient,
+                                          [](double smallest) { return smallest < LowAngle ? 3.0 : 1.0; })
                         : SmallestAngle(q, a, b);
                 sum += angle - 2 * std::max(0.0, LowAngle - angle);
                 sum -= 0.4 * _weight *

@@ -79,27 +79,27 @@ inline Foot NearestOnTriangle(const Point &origin, const Point &e1, const Point 
     const double d1 = Dot(e1, ap), d2 = Dot(e2, ap), d3 = Dot(e1, bp), d4 = Dot(e2, bp), d5 = Dot(e1, cp),
                  d6 = Dot(e2, cp);
     const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4, sum = va + vb + vc;
-    double w1 = 0, w2 = 0;
+    double w1 = sum > 0 ? vb / sum : 0, w2 = sum > 0 ? vc / sum : 0;
+    const auto set = [&](double a, double b) {
+        w1 = a;
+        w2 = b;
+    };
     // Most often the foot lies inside, and one test tells that instead of nine.
-    if (std::min({va, vb, vc}) > 0) {
-        w1 = vb / sum;
-        w2 = vc / sum;
-    } else if (d1 <= 0 && d2 <= 0) {
-        // the origin
-    } else if (d3 >= 0 && d4 <= d3) {
-        w1 = 1;
-    } else if (d6 >= 0 && d5 <= d6) {
-        w2 = 1;
-    } else if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-        w1 = ratio(d1, d1 - d3);
-    } else if (vb <= 0 && d2 >= 0 && d6 <= 0) {
-        w2 = ratio(d2, d2 - d6);
-    } else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-        w2 = ratio(d4 - d3, (d4 - d3) + (d5 - d6));
-        w1 = 1 - w2;
-    } else if (sum > 0) {
-        w1 = vb / sum;
-        w2 = vc / sum;
+    if (!(std::min({va, vb, vc}) > 0)) {
+        if (d1 <= 0 && d2 <= 0) {
+            set(0, 0);
+        } else if (d3 >= 0 && d4 <= d3) {
+            set(1, 0);
+        } else if (d6 >= 0 && d5 <= d6) {
+            set(0, 1);
+        } else if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+            set(ratio(d1, d1 - d3), 0);
+        } else if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+            set(0, ratio(d2, d2 - d6));
+        } else if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+            const double s = ratio(d4 - d3, (d4 - d3) + (d5 - d6));
+            set(1 - s, s);
+        }
     }
     Foot r;
     r.point = origin + e1 * w1 + e2 * w2;
