@@ -111,11 +111,14 @@ python_host() {
     fi
 }
 
+# The plugins to build, each with the scalar type of its host.
+variants="2020.09:float;2022.02:double;2025.07:double"
+
 build() {
     install_packages "${build_packages[@]}"
     fetch_sdks
     say "building"
-    cmake --preset default >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
+    cmake --preset default "-DCCDM_PLUGIN_VARIANTS=$variants" >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
     mkdir -p build && mv build-configure.log build/configure.log
     grep '^-- Plugin for MeshLab' build/configure.log || true
     cmake --build --preset default -- -v >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
@@ -157,7 +160,11 @@ run_tests() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${window_packages[@]}"
     # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
     python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
-    [ -z "${CCDM_ALL_HOSTS:-}" ] || python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
+    if [ -n "${CCDM_ALL_HOSTS:-}" ]; then
+        python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
+    else
+        variants="2020.09:float;2025.07:double"
+    fi
     build
     check_style
     say "tests"
