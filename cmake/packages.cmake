@@ -23,7 +23,8 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr) # Debian's MeshLab looks nowhere else
 # The plugin uses the inside of one version of MeshLab. What it links to is an empty library that only bears the name
 # of MeshLab's, so the usual search for dependencies would find nothing.
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME meshlab-filter-ccdm)
-set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "meshlab (>= 2020.09), meshlab (<< 2020.10~), libc6 (>= 2.34), libgcc-s1, libstdc++6 (>= 12)")
+set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS
+    "meshlab (>= 2020.09), meshlab (<< 2020.10~), libc6 (>= 2.34), libgcc-s1, libstdc++6 (>= 12)")
 set(CPACK_COMPONENT_PLUGIN_DESCRIPTION "Adds the filter 'Remeshing: Isotropic CCDM' to MeshLab and meshlabserver: well-shaped
 triangles, exactly the wanted number of vertices, creases and boundaries kept.")
 

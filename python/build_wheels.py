@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """build_wheels.py PLUGINS OUT: the wheels of the Python packages, into the folder OUT.
 
-PLUGINS is the build's folder of plugins, one subfolder for each MeshLab; nothing is compiled, and nothing is fetched.
+PLUGINS is the build's folder of plugins, one subfolder for each MeshLab; nothing is compiled or fetched.
 Needs pip, setuptools and wheel (in Debian packages of the same names).
 """
 import shutil
@@ -34,12 +34,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         copies = [Path(folder) / name for name in PACKAGES]
         for copy in copies:
-            shutil.copytree(source / copy.name, copy, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
+            litter = shutil.ignore_patterns("build", "*.egg-info", "__pycache__")
+            shutil.copytree(source / copy.name, copy, ignore=litter)
             shutil.copy(source.parent / "LICENSE", copy)
         add_plugins(plugins, copies[0] / PACKAGES[0])
-        subprocess.run(
-            [sys.executable, "-m", "pip", "wheel", "-q", "--disable-pip-version-check", "--no-index", "--no-deps",
-             "--no-build-isolation", "-w", out, *copies], check=True)
+        offline = ("--disable-pip-version-check", "--no-index", "--no-deps", "--no-build-isolation")
+        subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", *offline, "-w", out, *copies], check=True)
 
 
 if __name__ == "__main__":

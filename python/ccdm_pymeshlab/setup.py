@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rest is in pyproject.toml: here is only that the wheel holds machine code, but none that is Python's."""
+"""The rest is in pyproject.toml. Here is only that the wheel holds machine code, but none of Python's."""
 from setuptools import Distribution, setup
 from wheel.bdist_wheel import bdist_wheel
 

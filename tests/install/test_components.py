@@ -53,7 +53,7 @@ def configure(folder, *options, expect=0):
 def test_example_is_built_and_runs(development, tmp_path):
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={development}", f"-DVCGLIB_INCLUDE_DIR={os.environ['CCDM_VCGLIB']}")
     log = call("cmake", "--build", tmp_path, "-v")
-    assert "-ffp-contract=off" in log and "-std=c++17" in log.replace("gnu++", "c++"), "the flags of the library itself"
+    assert "-ffp-contract=off" in log, "as where the project itself uses the library: equal bits"
     assert call(tmp_path / "remesh_a_box") == "100 vertices, 196 triangles\n"
 
 

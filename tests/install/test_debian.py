@@ -50,8 +50,8 @@ def test_fields_of_both(packages):
         assert field(package, "Maintainer").startswith("CCDM for MeshLab <")
         first, *more = field(package, "Description").splitlines()
         assert len(first) < 80 and more
-        assert "GPL-3.0-or-later" in call("sh", "-c", 'dpkg-deb --fsys-tarfile "$0" | tar -xO --wildcards "*/copyright"',
-                                          package)
+        unpack = 'dpkg-deb --fsys-tarfile "$0" | tar -xO --wildcards "*/copyright"'
+        assert "GPL-3.0-or-later" in call("sh", "-c", unpack, package)
 
 
 def apt(*arguments, **options):

@@ -23,7 +23,7 @@ class UnsupportedHostError(ImportError):
 
 
 def plugin_path() -> Path:
-    """The plugin for the installed PyMeshLab: a plugin fits one version of MeshLab only, post releases included."""
+    """The plugin for the installed PyMeshLab: one fits a single version of MeshLab, with its post releases."""
     try:
         version = metadata.version("pymeshlab")
     except metadata.PackageNotFoundError:
@@ -31,9 +31,9 @@ def plugin_path() -> Path:
     number = re.match(r"(\d+)\.(\d+)", version)
     path = _PLUGINS / (f"{number[1]}.{int(number[2]):02}" if number else version) / "libfilter_ccdm.so"
     if not path.is_file():
-        there = ", ".join(sorted(f"{p.parent.name}" for p in _PLUGINS.glob("*/libfilter_ccdm.so"))) or "none"
+        there = ", ".join(sorted(p.parent.name for p in _PLUGINS.glob("*/libfilter_ccdm.so"))) or "none"
         raise UnsupportedHostError(
-            f"There is no CCDM plugin for PyMeshLab {version} in this package. MeshLab versions that it has one for: {there}."
+            f"There is no CCDM plugin for PyMeshLab {version} in this package, only for MeshLab: {there}."
         )
     return path
 
