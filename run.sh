@@ -16,6 +16,7 @@ usage: ./run.sh VERB
           bench scaling [--sizes N ...] [--repeats N],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
+  package the same set-up, then the Debian packages and Python wheels, in build/packages
   screenshots
           the pictures of MeshLab's window in filter_ccdm/pictures, taken anew
   clean   removes what was built; --all: the fetched MeshLab sources too
@@ -29,6 +30,7 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
 test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0)
+package_packages=(python3-pip python3-setuptools python3-wheel binutils)
 # What drives MeshLab's window.
 window_packages=(xvfb openbox xdotool imagemagick x11-utils dbus at-spi2-core gir1.2-atspi-2.0 python3-gi python3-numpy)
 # CGAL, Python's environments, and what the wheels of other remeshers link to.
@@ -157,7 +159,8 @@ check_style() {
 }
 
 run_tests() {
-    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${window_packages[@]}"
+    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" \
+        "${window_packages[@]}"
     # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
     python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
     if [ -n "${CCDM_ALL_HOSTS:-}" ]; then
@@ -170,6 +173,15 @@ run_tests() {
     say "tests"
     [ -d ../shared/meshes ] || say "../shared/meshes is not there: the tests on real models are skipped"
     ctest --preset default --output-on-failure
+}
+
+package() {
+    install_packages "${build_packages[@]}" "${package_packages[@]}"
+    build
+    rm -rf build/packages
+    (cd build && cpack -G DEB >cpack.log) || { cat build/cpack.log; fail "cpack failed"; }
+    /usr/bin/python3 python/build_wheels.py build/plugins build/packages
+    ls -1 build/packages/*
 }
 
 screenshots() {
@@ -199,6 +211,7 @@ demo) demo ;;
 test) run_tests ;;
 build) build ;;
 bench) bench "${@:2}" ;;
+package) package ;;
 screenshots) screenshots ;;
 clean)
     rm -rf build

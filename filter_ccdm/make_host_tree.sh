@@ -14,4 +14,5 @@ for program in meshlab meshlabserver; do
 done
 ln -s "$installed"/*.so* "$dir/lib/$multiarch/meshlab/"
 ln -s "$installed"/plugins/*.so "$dir/lib/$multiarch/meshlab/plugins/"
-ln -s "$(realpath "$plugin")" "$dir/lib/$multiarch/meshlab/plugins/"
+# Takes the place of the one of an installed package.
+ln -sf "$(realpath "$plugin")" "$dir/lib/$multiarch/meshlab/plugins/"
