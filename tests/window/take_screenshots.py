@@ -11,7 +11,7 @@ import sys
 import ccdm
 import desktop
 
-HEIGHT_OF_ROW, HEIGHT_OF_REST = 53, 180  # of the dialog with its explanations
+HEIGHT_OF_ROW, HEIGHT_OF_REST = 60, 180  # of the dialog with its explanations
 
 
 def main():
