@@ -31,7 +31,7 @@ def test_changed_parameters_into_a_new_layer(meshlab, samples, tmp_path, picture
                         global_iterations=15, local_iterations=2, **{"lambda": 0.3}, min_angle=35, seed=5)
     assert lines[0] == (f"remeshing {before.vertices} vertices, {len(before.faces)} faces to 1234 vertices; "
                         "into a new layer")
-    assert lines[1] == "features: edges that turn by more than 60 deg; density: by curvature"
+    assert lines[1] == "features: edges that turn by more than 60 deg; boundary: sliding; density: by curvature"
     assert lines[2].startswith("accelerated optimizer, 15 x 2 iterations, lambda 0.3, smallest angle 35 deg")
     assert lines[2].endswith("seed 5")
     (summary,) = [line for line in lines if "global iterations accepted" in line]

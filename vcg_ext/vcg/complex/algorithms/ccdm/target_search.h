@@ -190,7 +190,8 @@ private:
     }
 
     // The closed formula is right where the remesh has about the input's area. A rough surface loses area to
-    // the chords: then the count is put right by what was measured, once.
+    // the chords, and edges that have to stay are as long as they are: then the count is put right by what was
+    // measured.
     Report ForEdgeLength(const MeshTables &input, Result &output)
     {
         const double length = *_params.edgeLength;
@@ -199,21 +200,23 @@ private:
         if (report.status != Status::Done)
             return report;
         const auto off = [&](const Report &r) { return std::abs(r.meanEdgeLength / length - 1); };
-        if (off(report) > EdgeTolerance) {
+        int wanted = report.requestedVertices;
+        for (int round = 0; round < MostCorrections && off(report) > EdgeTolerance; ++round) {
             Params params = _params;
             params.edgeLength.reset();
             const double share = report.meanEdgeLength / length;
-            params.vertexCount = std::max(4, static_cast<int>(std::lround(report.requestedVertices * share * share)));
-            if (params.vertexCount != report.requestedVertices && report.extraVertices == 0) {
-                Result second;
-                Report again = One(input, params, 99, second);
-                if (again.status == Status::Cancelled)
-                    return again;
-                if (again.status == Status::Done && off(again) < off(report)) {
-                    report = std::move(again);
-                    first = std::move(second);
-                }
-            }
+            params.vertexCount = std::max(4, static_cast<int>(std::lround(wanted * share * share)));
+            if (params.vertexCount == wanted || report.extraVertices > 0)
+                break;
+            Result again;
+            Report next = One(input, params, 90 + 9 * (round + 1) / MostCorrections, again);
+            if (next.status == Status::Cancelled)
+                return next;
+            if (next.status != Status::Done || off(next) >= off(report))
+                break;
+            report = std::move(next);
+            first = std::move(again);
+            wanted = params.vertexCount;
         }
         if (off(report) > EdgeTolerance)
             report.warnings.push_back(
@@ -375,7 +378,7 @@ private:
         return std::exp(x + y / slope);
     }
 
-    static constexpr int MostRuns = 8;
+    static constexpr int MostRuns = 8, MostCorrections = 3;
     static constexpr int TrialIterations = 4;
     static constexpr double LeastCap = 100000, MostCap = 4000000, MostFirst = 20000;
     static constexpr double MostStep = 8, FullStep = 1.7;
