@@ -48,6 +48,11 @@ Column NormalColumn(const std::vector<vcg::Point3d> &normals)
     return column;
 }
 
+bool AnyHas(const std::vector<int> &flags, int bits)
+{
+    return std::any_of(flags.begin(), flags.end(), [bits](int x) { return (x & bits) != 0; });
+}
+
 constexpr int AllFaux = CFaceO::FAUX0 | CFaceO::FAUX1 | CFaceO::FAUX2;
 constexpr int AllSelectedEdges = CFaceO::FACEEDGESEL0 | CFaceO::FACEEDGESEL1 | CFaceO::FACEEDGESEL2;
 
@@ -90,13 +95,10 @@ void AttributeCarrier::NameTheRest(const MeshModel &layer)
         _notCarried << "curvature";
     if (layer.hasDataMask(MeshModel::MM_VERTCURVDIR | MeshModel::MM_FACECURVDIR))
         _notCarried << "curvature directions";
-    const auto any = [&](int bits) {
-        return std::any_of(_faceFlags.begin(), _faceFlags.end(), [bits](int flags) { return (flags & bits) != 0; });
-    };
     const QString where = _partial ? " of the remeshed faces" : "";
-    if (any(AllFaux))
+    if (AnyHas(_faceFlags, AllFaux))
         _notCarried << "polygons" + where;
-    if (any(AllSelectedEdges))
+    if (AnyHas(_faceFlags, AllSelectedEdges))
         _notCarried << "edge selection" + where;
     if (layer.cm.en > 0)
         _notCarried << "edges";
@@ -126,9 +128,15 @@ void AttributeCarrier::MarkFeatures(Mesh &input, vcg::ccdm::Params &params)
     _notes << QString("%1 seam edges of the texture coordinates were kept as features").arg(_texture.SeamCount());
 }
 
+bool AttributeCarrier::Any() const
+{
+    return _partial || !_columns.ofVertices.empty() || !_columns.ofFaces.empty() || !_texture.Empty() ||
+           AnyHas(_vertexFlags, CVertexO::SELECTED) || AnyHas(_faceFlags, CFaceO::SELECTED);
+}
+
 void AttributeCarrier::Carry(const Provenance &provenance, const Mesh &result, LayerContent &content)
 {
-    if (!_all)
+    if (!Any())
         return;
     CarryVertices(provenance, content);
     CarryFaces(provenance, content);
@@ -242,12 +250,9 @@ QStringList AttributeCarrier::Describe() const
         for (const Column &column : *columns)
             if (!column.name.isEmpty())
                 carried << column.name;
-    const auto any = [](const std::vector<int> &flags, int bit) {
-        return std::any_of(flags.begin(), flags.end(), [bit](int x) { return (x & bit) != 0; });
-    };
-    if (any(_vertexFlags, CVertexO::SELECTED))
+    if (AnyHas(_vertexFlags, CVertexO::SELECTED))
         carried << "vertex selection";
-    if (any(_faceFlags, CFaceO::SELECTED))
+    if (AnyHas(_faceFlags, CFaceO::SELECTED))
         carried << "face selection";
     if (!_texture.Empty())
         carried << "texture coordinates per wedge";

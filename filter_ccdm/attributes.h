@@ -25,6 +25,9 @@ public:
     /// Whether there are any goes into the parameters.
     void MarkFeatures(Mesh &input, vcg::ccdm::Params &params);
 
+    /// Whether there is anything to carry: else no provenance is needed.
+    bool Any() const;
+
     /// Completes the new content of a layer with all that is carried.
     void Carry(const vcg::ccdm::Provenance &provenance, const Mesh &result, LayerContent &content);
 

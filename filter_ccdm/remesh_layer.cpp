@@ -96,14 +96,14 @@ int VertexBudget(const Mesh &input, const vcg::ccdm::Params &params)
 }
 
 vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::Params &params,
-                             vcg::CallBackPos *progress, vcg::ccdm::Provenance &provenance)
+                             vcg::CallBackPos *progress, vcg::ccdm::Provenance *provenance)
 {
     // The engine relates errors to the part that it remeshes.
     vcg::ccdm::Params own = params;
     const double part = Diagonal(input, params.selectedFacesOnly), scale = part > 0 ? Diagonal(input) / part : 1;
     if (params.maxError)
         own.maxError = std::min(1.0, *params.maxError * scale);
-    vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, own, progress, &provenance);
+    vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, own, progress, provenance);
     if (report.status != vcg::ccdm::Status::Done)
         throw Failure(report.message);
     if (params.maxError) {

@@ -50,9 +50,10 @@ int SelectedFaceCount(const Mesh &mesh);
 int VertexBudget(const Mesh &input, const vcg::ccdm::Params &params);
 
 /// Remeshes `input`; an error in the parameters and in the report is relative to the diagonal of the whole input, also
-/// when only the selected faces are remeshed. Throws Failure with the reason when there is no result.
+/// when only the selected faces are remeshed. `provenance` may be null. Throws Failure with the reason when there is no
+/// result.
 vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::Params &params,
-                             vcg::CallBackPos *progress, vcg::ccdm::Provenance &provenance);
+                             vcg::CallBackPos *progress, vcg::ccdm::Provenance *provenance);
 
 } // namespace filter_ccdm
 

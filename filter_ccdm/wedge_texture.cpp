@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <tuple>
+
+#include <vcg/complex/algorithms/ccdm/disjoint_sets.h>
 
 using vcg::ccdm::SurfacePoint;
 
@@ -56,14 +58,7 @@ void WedgeTexture::FindCharts(const Mesh &input)
         return std::tie(x.a, x.b, x.side.face, x.side.edge) < std::tie(y.a, y.b, y.side.face, y.side.edge);
     });
 
-    std::vector<int> parent(input.face.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int f) {
-        const auto at = [&](int i) -> int & { return parent[static_cast<std::size_t>(i)]; };
-        while (at(f) != f)
-            f = at(f) = at(at(f));
-        return f;
-    };
+    vcg::ccdm::DisjointSets charts(input.face.size());
     const auto wedge = [&](const EdgeSide &s, int vertex) {
         const int k =
             input.IndexOf(input.face[static_cast<std::size_t>(s.face)], s.edge) == vertex ? s.edge : (s.edge + 1) % 3;
@@ -74,13 +69,13 @@ void WedgeTexture::FindCharts(const Mesh &input)
         if (x.a != y.a || x.b != y.b)
             continue;
         if (same(wedge(x.side, x.a), wedge(y.side, x.a)) && same(wedge(x.side, x.b), wedge(y.side, x.b)))
-            parent[static_cast<std::size_t>(root(x.side.face))] = root(y.side.face);
+            charts.Join(x.side.face, y.side.face);
         else
             _seam.push_back({x.side, y.side});
     }
     _chart.resize(input.face.size());
     for (std::size_t f = 0; f < _chart.size(); ++f)
-        _chart[f] = root(static_cast<int>(f));
+        _chart[f] = charts.SetOf(static_cast<int>(f));
 }
 
 int WedgeTexture::SeamCorners(const Mesh &input, bool selectedOnly) const

@@ -84,6 +84,15 @@ inline shapes::Shape ToShape(const vcg::ccdm::MeshTables &t)
     return s;
 }
 
+/// Parameters of a short run.
+inline vcg::ccdm::Params Quick(int vertices)
+{
+    vcg::ccdm::Params p;
+    p.vertexCount = vertices;
+    p.globalIterations = 5;
+    return p;
+}
+
 /// A shape as a reference surface with uniform density for n vertices and features by angle.
 inline vcg::ccdm::Model MakeModel(const shapes::Shape &s, int n, double featureAngle)
 {

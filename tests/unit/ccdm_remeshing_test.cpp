@@ -12,17 +12,10 @@ namespace {
 
 using meshes::MeshD;
 using meshes::MeshF;
+using meshes::Quick;
 using vcg::ccdm::Params;
 using vcg::ccdm::Report;
 using vcg::ccdm::Status;
-
-Params Quick(int n)
-{
-    Params p;
-    p.vertexCount = n;
-    p.globalIterations = 5;
-    return p;
-}
 
 template <class MeshType>
 Report Remesh(MeshType &m, const Params &p, vcg::CallBackPos *cb = nullptr)

@@ -12,6 +12,7 @@ namespace provenance_test {
 namespace {
 
 using meshes::MeshD;
+using meshes::Quick;
 using vcg::ccdm::BoundaryKind;
 using vcg::ccdm::Params;
 using vcg::ccdm::Provenance;
@@ -20,14 +21,6 @@ using vcg::ccdm::Status;
 using vcg::ccdm::SurfacePoint;
 using Remeshing = vcg::tri::CCDMRemeshing<MeshD>;
 using Point = vcg::Point3d;
-
-Params Quick(int n)
-{
-    Params p;
-    p.vertexCount = n;
-    p.globalIterations = 5;
-    return p;
-}
 
 Point At(const MeshD &m, const SurfacePoint &p)
 {

@@ -24,11 +24,9 @@ using vcg::ccdm::Status;
 using Remeshing = vcg::tri::CCDMRemeshing<MeshD>;
 using Point = vcg::Point3d;
 
-Params Quick(int n)
+Params OfSelection(int n)
 {
-    Params p;
-    p.vertexCount = n;
-    p.globalIterations = 5;
+    Params p = meshes::Quick(n);
     p.featureAngle = 180;
     p.selectedFacesOnly = true;
     return p;
@@ -80,7 +78,7 @@ TEST(Selection, RemeshesTheSelectedHalfOnly)
     meshes::Fill(in, shapes::Bumpy(3));
     Select(in, [](const Point &c) { return c[2] > 0.1; });
     Provenance p;
-    const Report r = RunOn(in, out, Quick(in.VN() + 100), p);
+    const Report r = RunOn(in, out, OfSelection(in.VN() + 100), p);
     ASSERT_EQ(r.status, Status::Done) << r.message;
     EXPECT_EQ(out.VN(), in.VN() + 100);
     EXPECT_EQ(r.reached, out.VN());
@@ -99,7 +97,7 @@ TEST(Selection, PatchesThatTouchInVertices)
         return s > 0;
     });
     Provenance p;
-    const Report r = RunOn(in, out, Quick(in.VN() + 300), p);
+    const Report r = RunOn(in, out, OfSelection(in.VN() + 300), p);
     ASSERT_EQ(r.status, Status::Done) << r.message;
     EXPECT_EQ(out.VN(), in.VN() + 300 + r.extraVertices);
     ExpectRestUntouched(in, out, p);
@@ -118,7 +116,7 @@ TEST(Selection, CheckerboardOfAGrid)
         return (static_cast<int>(3 * x) + static_cast<int>(3 * y)) % 2 == 0;
     });
     Provenance p;
-    const Report r = RunOn(in, out, Quick(in.VN()), p);
+    const Report r = RunOn(in, out, OfSelection(in.VN()), p);
     ASSERT_EQ(r.status, Status::Done) << r.message;
     EXPECT_EQ(out.VN(), in.VN());
     ExpectRestUntouched(in, out, p);
@@ -130,8 +128,8 @@ TEST(Selection, AllFacesAreAnOrdinaryRun)
     meshes::Fill(in, shapes::Bumpy(2));
     Select(in, [](const Point &) { return true; });
     Provenance p;
-    ASSERT_EQ(RunOn(in, out, Quick(200), p).status, Status::Done);
-    Params params = Quick(200);
+    ASSERT_EQ(RunOn(in, out, OfSelection(200), p).status, Status::Done);
+    Params params = OfSelection(200);
     params.selectedFacesOnly = false;
     ASSERT_EQ(Remeshing::Do(in, ordinary, params).status, Status::Done);
     ASSERT_EQ(out.VN(), ordinary.VN());
@@ -145,9 +143,9 @@ TEST(Selection, RefusesWhatCannotBeDone)
     MeshD in, out;
     meshes::Fill(in, shapes::Bumpy(2));
     Provenance p;
-    EXPECT_EQ(RunOn(in, out, Quick(200), p).message, "no face is selected");
+    EXPECT_EQ(RunOn(in, out, OfSelection(200), p).message, "no face is selected");
     Select(in, [](const Point &c) { return c[2] > 0.5; });
-    const Report few = RunOn(in, out, Quick(20), p);
+    const Report few = RunOn(in, out, OfSelection(20), p);
     EXPECT_EQ(few.status, Status::InvalidParameter);
     EXPECT_NE(few.message.find("the vertex count must be at least"), std::string::npos);
     EXPECT_EQ(out.VN(), 0);
@@ -164,7 +162,7 @@ TEST(Selection, RefusesACrowdedEdge)
     in.face[0].SetS();
     in.face[1].SetS();
     Provenance p;
-    const Report r = RunOn(in, out, Quick(20), p);
+    const Report r = RunOn(in, out, OfSelection(20), p);
     EXPECT_EQ(r.status, Status::InvalidInput);
     EXPECT_EQ(r.message, "1 edge of the selection has more than two faces");
 }
@@ -185,7 +183,7 @@ TEST(Selection, LeavesABrokenRestAlone)
     meshes::Fill(in, s);
     Select(in, [](const Point &c) { return c[2] > 0.3; });
     Provenance p;
-    const Report r = RunOn(in, out, Quick(in.VN() + 50), p);
+    const Report r = RunOn(in, out, OfSelection(in.VN() + 50), p);
     ASSERT_EQ(r.status, Status::Done) << r.message;
     EXPECT_EQ(out.VN(), in.VN() + 50);
     EXPECT_EQ(p.keptFaces + r.resultTopology.faces, out.FN());

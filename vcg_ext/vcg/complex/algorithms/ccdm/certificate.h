@@ -124,14 +124,7 @@ private:
         return sum / 3;
     }
 
-    // Reference vertex of a vertex that is a corner.
-    int CornerOf(int v) const
-    {
-        const auto &r = _model.surface.mesh.triangle[_remesh.place[v].face].v;
-        return *std::min_element(std::begin(r), std::end(r), [&](int a, int b) {
-            return SquaredNorm(Input(a) - At(v)) < SquaredNorm(Input(b) - At(v));
-        });
-    }
+    int CornerOf(int v) const { return ReferenceCorner(_model, _remesh, v); }
     bool Ends(int curve, int corner) const
     {
         return Curve(curve).vertex.front() == corner || Curve(curve).vertex.back() == corner;
@@ -153,12 +146,8 @@ private:
 
     Point Along(const FeatureCurve &c, double s) const
     {
-        if (c.closed)
-            s -= c.Length() * std::floor(s / c.Length());
-        s = std::clamp(s, 0.0, c.Length());
-        const auto after = std::upper_bound(c.arc.begin(), c.arc.end(), s);
-        const int k = std::clamp(static_cast<int>(after - c.arc.begin()) - 1, 0, c.Segments() - 1);
-        return Input(c.vertex[k]) + (Input(c.vertex[k + 1]) - Input(c.vertex[k])) * c.Fraction(k, s);
+        const auto after = std::upper_bound(c.arc.begin(), c.arc.end(), c.OnCurve(s));
+        return c.At(_model.surface.position, s, static_cast<int>(after - c.arc.begin()) - 1);
     }
 
     // Point of a curve at arc length r from the corner where it starts or ends.
@@ -340,34 +329,12 @@ private:
         return {std::sqrt(least), c.arc[best] + (c.arc[best + 1] - c.arc[best]) * share};
     }
 
-    // Reference faces on every side of the features that a vertex lies on.
-    std::vector<int> FacesAt(int v) const
-    {
-        const Place &place = _remesh.place[v];
-        const Triangulation &m = _model.surface.mesh;
-        std::vector<int> faces(1, place.face);
-        if (place.kind == VertexKind::Curve) {
-            const Side s = Curve(place.curve).side[Curve(place.curve).SegmentAt(place.s, place.segment)];
-            faces.push_back(SideTriangle(s));
-            if (m.Mate(s) != NoSide)
-                faces.push_back(SideTriangle(m.Mate(s)));
-        }
-        if (place.kind == VertexKind::Corner)
-            m.VisitSpokes(CornerOf(v), [&](int, Side s) {
-                faces.push_back(SideTriangle(s));
-                if (m.Mate(s) != NoSide)
-                    faces.push_back(SideTriangle(m.Mate(s)));
-                return true;
-            });
-        return faces;
-    }
-
     // A reference face and point below p, a point of triangle t, on the sheet of the triangle.
     std::pair<int, Point> Below(int t, const Point &p) const
     {
         std::pair<int, Foot> best = {-1, Foot()};
         for (const int v : _remesh.mesh.triangle[t].v)
-            for (const int face : FacesAt(v)) {
+            for (const int face : ReferenceFacesAt(_model, _remesh, v)) {
                 const auto found = _model.surface.Project(face, At(v), p, 0);
                 if (best.first < 0 || found.second.squaredDistance < best.second.squaredDistance)
                     best = found;

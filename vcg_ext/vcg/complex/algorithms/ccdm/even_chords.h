@@ -75,37 +75,32 @@ private:
             });
     }
 
-    Point At(const FeatureCurve &c, double s, int hint) const
-    {
-        if (s > c.Length())
-            s -= c.Length();
-        const int k = c.SegmentAt(s, hint);
-        const Point &a = _model.surface.position[c.vertex[k]], &b = _model.surface.position[c.vertex[k + 1]];
-        return a + (b - a) * c.Fraction(k, s);
-    }
+    // Where a chord ends: a vertex, or with -1 a corner.
+    struct End {
+        int v;
+        double s;
+        Point p;
+    };
 
     void AddChords(const std::vector<int> &chain, std::vector<Chord> &chords) const
     {
         if (chain.empty())
             return;
+        const std::vector<Point> &reference = _model.surface.position;
         const FeatureCurve &c = _model.features.curve[_remesh.place[chain.front()].curve];
-        // A vertex that slid across the start of a closed curve has its new place in the order all the same.
-        const auto add = [&](int a, double s, const Point &p, int b, double t, const Point &q, int hint) {
-            const double way = t - s + (t < s ? c.Length() : 0);
-            chords.push_back({a, b, Norm(At(c, s + way / 2, hint) - (p + q) / 2)});
-        };
-        const auto s = [&](int v) { return _remesh.place[v].s; };
-        const auto x = [&](int v) { return _remesh.position[v]; };
-        const int first = chain.front(), last = chain.back();
-        for (std::size_t k = 1; k < chain.size(); ++k)
-            add(chain[k - 1], s(chain[k - 1]), x(chain[k - 1]), chain[k], s(chain[k]), x(chain[k]),
-                _remesh.place[chain[k]].segment);
-        if (c.closed) {
-            add(last, s(last), x(last), first, s(first), x(first), _remesh.place[last].segment);
-            return;
+        std::vector<End> ends;
+        if (!c.closed)
+            ends.push_back({-1, 0, reference[c.vertex.front()]});
+        for (const int v : chain)
+            ends.push_back({v, _remesh.place[v].s, _remesh.position[v]});
+        ends.push_back(c.closed ? ends.front() : End{-1, c.Length(), reference[c.vertex.back()]});
+        for (std::size_t k = 1; k < ends.size(); ++k) {
+            const End &a = ends[k - 1], &b = ends[k];
+            // A vertex that slid across the start of a closed curve has its place in the order all the same.
+            const double way = b.s - a.s + (b.s < a.s ? c.Length() : 0);
+            const int hint = a.v < 0 ? 0 : _remesh.place[a.v].segment;
+            chords.push_back({a.v, b.v, Norm(c.At(reference, a.s + way / 2, hint) - (a.p + b.p) / 2)});
         }
-        add(-1, 0, _model.surface.position[c.vertex.front()], first, s(first), x(first), 0);
-        add(last, s(last), x(last), -1, c.Length(), _model.surface.position[c.vertex.back()], c.Segments() - 1);
     }
 
     struct Angles {
@@ -118,9 +113,8 @@ private:
         Angles a;
         _remesh.mesh.VisitSpokes(v, [&](int, Side s) {
             const Triangle &T = _remesh.mesh.triangle[SideTriangle(s)];
-            const Point &p = _remesh.position[T.v[0]], &q = _remesh.position[T.v[1]], &r = _remesh.position[T.v[2]];
-            a.cosine = std::max(a.cosine, LargestCosine(p, q, r));
-            a.sum += SmallestAngle(p, q, r);
+            a.cosine = std::max(a.cosine, LargestCosine(_remesh, SideTriangle(s)));
+            a.sum += SmallestAngle(_remesh.position[T.v[0]], _remesh.position[T.v[1]], _remesh.position[T.v[2]]);
             return true;
         });
         return a;
@@ -132,7 +126,7 @@ private:
         return a || b;
     }
 
-    // The other end is a corner if it is -1; then the way is away from the neighbour on the other side.
+    // `to` is the other end of the chord.
     bool MoveTowards(int v, int to, const Chord &c)
     {
         const Point x = _remesh.position[v];

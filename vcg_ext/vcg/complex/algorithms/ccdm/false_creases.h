@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/disjoint_sets.h>
 #include <vcg/complex/algorithms/ccdm/feature_graph.h>
 
 namespace vcg {
@@ -181,24 +182,17 @@ private:
     int DropShort(const std::vector<Side> &crease)
     {
         // Union of the edges' ends; the length in spacings of each set.
-        std::vector<int> parent(_mesh.VertexCount());
-        for (std::size_t v = 0; v < parent.size(); ++v)
-            parent[v] = static_cast<int>(v);
-        const auto root = [&](int v) {
-            while (parent[v] != v)
-                v = parent[v] = parent[parent[v]];
-            return v;
-        };
+        DisjointSets sets(static_cast<std::size_t>(_mesh.VertexCount()));
         for (const Side s : crease)
-            parent[root(_mesh.Tail(s))] = root(_mesh.Head(s));
-        std::vector<double> length(parent.size(), 0);
+            sets.Join(_mesh.Tail(s), _mesh.Head(s));
+        std::vector<double> length(_mesh.VertexCount(), 0);
         for (const Side s : crease)
-            length[root(_mesh.Tail(s))] +=
+            length[sets.SetOf(_mesh.Tail(s))] +=
                 Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]) / _spacing[_mesh.Tail(s)];
-        std::vector<char> shortSet(parent.size(), 0);
+        std::vector<char> shortSet(_mesh.VertexCount(), 0);
         int dropped = 0;
         for (const Side s : crease) {
-            const int r = root(_mesh.Tail(s));
+            const int r = sets.SetOf(_mesh.Tail(s));
             if (length[r] >= LeastLength)
                 continue;
             dropped += shortSet[r] == 0;

@@ -37,6 +37,23 @@ struct FeatureCurve {
         const double l = arc[segment + 1] - arc[segment];
         return l > 0 ? std::clamp((s - arc[segment]) / l, 0.0, 1.0) : 0.0;
     }
+    /// Arc length s brought onto the curve: around a closed one, to the nearer end of another.
+    double OnCurve(double s) const
+    {
+        if (closed) {
+            s = std::fmod(s, Length());
+            s += s < 0 ? Length() : 0;
+        }
+        return std::clamp(s, 0.0, Length());
+    }
+    /// The point at arc length s, of the reference vertices' positions; `hint` as for SegmentAt.
+    Point At(const std::vector<Point> &position, double s, int hint) const
+    {
+        s = OnCurve(s);
+        const int k = SegmentAt(s, hint);
+        const Point &a = position[vertex[k]], &b = position[vertex[k + 1]];
+        return a + (b - a) * Fraction(k, s);
+    }
 };
 
 /// The features of a reference surface: creases, boundaries and marked edges as curves that meet at
@@ -327,18 +344,6 @@ private:
         return curves;
     }
 
-    Point AlongCurve(const FeatureCurve &c, double s, int hint) const
-    {
-        if (c.closed) {
-            s = std::fmod(s, c.Length());
-            s += s < 0 ? c.Length() : 0;
-        }
-        s = std::clamp(s, 0.0, c.Length());
-        const int k = c.SegmentAt(s, hint);
-        const Point &a = _surface.position[c.vertex[k]], &b = _surface.position[c.vertex[k + 1]];
-        return a + (b - a) * c.Fraction(k, s);
-    }
-
     // Corners where the curve turns by more than the limit between the chords to the points half a
     // spacing before and after; of several such vertices within that distance, the sharpest.
     void FindTurns(const FeatureCurve &c)
@@ -348,8 +353,8 @@ private:
         for (int k = c.closed ? 0 : 1; k < last; ++k) {
             const double window = std::min(0.5 * _spacing[c.vertex[k]], 0.25 * c.Length());
             const Point &p = _surface.position[c.vertex[k]];
-            const Point before = p - AlongCurve(c, c.arc[k] - window, k);
-            const Point after = AlongCurve(c, c.arc[k] + window, k) - p;
+            const Point before = p - c.At(_surface.position, c.arc[k] - window, k);
+            const Point after = c.At(_surface.position, c.arc[k] + window, k) - p;
             turn[k] = std::atan2(Norm(Cross(before, after)), Dot(before, after));
         }
         turn[last] = c.closed ? turn[0] : 0;

@@ -28,6 +28,18 @@ struct MeshTables {
     std::vector<double> field;            ///< wanted density at each vertex; empty: none
 };
 
+/// Whether a face names a vertex twice.
+inline bool RepeatsVertex(const std::array<int, 3> &f)
+{
+    return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+}
+
+/// A number with its noun.
+inline std::string Counted(int n, const char *one, const char *many)
+{
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 /// The input made ready: unreferenced vertices and faces that repeat a vertex dropped, scaled to about
 /// unit size, coherently oriented as far as that goes, and numbered along a space-filling curve, so
 /// that the result does not depend on the numbering of the input.
@@ -67,11 +79,6 @@ private:
         return false;
     }
 
-    static std::string Counted(int n, const char *one, const char *many)
-    {
-        return std::to_string(n) + " " + (n == 1 ? one : many);
-    }
-
     bool Select(const MeshTables &input)
     {
         if (input.face.empty())
@@ -80,7 +87,7 @@ private:
         std::vector<int> faces;
         for (std::size_t t = 0; t < input.face.size(); ++t) {
             const auto &f = input.face[t];
-            if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) {
+            if (RepeatsVertex(f)) {
                 ++defects.repeatedIndexFaces;
                 continue;
             }

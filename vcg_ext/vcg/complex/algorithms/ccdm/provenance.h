@@ -77,11 +77,11 @@ public:
         return p;
     }
 
-    /// The caller's vertex that a corner is; -1 for any other vertex.
+    /// The caller's vertex that a corner, which never moves, is; -1 for any other vertex.
     int SameVertex(int v) const
     {
-        const int r = ReferenceVertex(v);
-        return r < 0 ? -1 : _prepared.original[r];
+        return _remesh.place[v].kind == VertexKind::Corner ? _prepared.original[ReferenceCorner(_model, _remesh, v)]
+                                                           : -1;
     }
 
 private:
@@ -90,17 +90,6 @@ private:
     const Remesh &_remesh;
     const InputMesh &_prepared;
     const MeshTables &_input;
-
-    // Corners stay where they are, to the last bit.
-    int ReferenceVertex(int v) const
-    {
-        if (_remesh.place[v].kind != VertexKind::Corner)
-            return -1;
-        for (const int r : _surface.mesh.triangle[_remesh.place[v].face].v)
-            if (_surface.position[r] == _remesh.position[v])
-                return r;
-        return -1;
-    }
 
     SurfacePoint OnFace(int face, int v) const
     {
@@ -121,29 +110,6 @@ private:
         return q;
     }
 
-    // The reference faces at a vertex, on every side of the features that it lies on.
-    void FacesAt(int v, std::vector<int> &faces) const
-    {
-        const Place &place = _remesh.place[v];
-        const Triangulation &m = _surface.mesh;
-        faces.assign(1, place.face);
-        if (place.kind == VertexKind::Curve) {
-            const FeatureCurve &c = _model.features.curve[place.curve];
-            const Side s = c.side[c.SegmentAt(place.s, place.segment)];
-            faces[0] = SideTriangle(s);
-            if (m.Mate(s) != NoSide)
-                faces.push_back(SideTriangle(m.Mate(s)));
-        }
-        const int corner = ReferenceVertex(v);
-        if (corner < 0)
-            return;
-        faces.clear();
-        Star star;
-        m.GatherStar(corner, star);
-        for (const Side s : star.corner)
-            faces.push_back(SideTriangle(s));
-    }
-
     // The reference face under the centroid of a triangle. On the way the corners that lie on features are put on
     // the triangle's side of them.
     int Under(int t, std::vector<Provenance::SideCorner> &sides) const
@@ -152,14 +118,13 @@ private:
         const Point centroid = (_remesh.position[T.v[0]] + _remesh.position[T.v[1]] + _remesh.position[T.v[2]]) / 3;
         double least = std::numeric_limits<double>::infinity();
         int under = -1;
-        std::vector<int> faces;
         for (int k = 0; k < 3; ++k) {
             const int v = T.v[k];
             if (_remesh.place[v].kind == VertexKind::Free) {
                 Look(_remesh.place[v].face, v, centroid, least, under);
                 continue;
             }
-            FacesAt(v, faces);
+            const std::vector<int> faces = ReferenceFacesAt(_model, _remesh, v);
             // From the right side the way to the centroid crosses no feature. Around the loose end of a feature
             // both sides lead there: then the side whose face is nearer at the start.
             int best = faces.front();

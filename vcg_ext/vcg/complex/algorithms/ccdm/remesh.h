@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/density.h>
@@ -45,6 +46,37 @@ struct Model {
     FeatureGraph features;
     DensityField density;
 };
+
+/// Reference vertex of a vertex that is a corner.
+inline int ReferenceCorner(const Model &model, const Remesh &remesh, int v)
+{
+    const auto &r = model.surface.mesh.triangle[remesh.place[v].face].v;
+    const auto squared = [&](int a) { return SquaredNorm(model.surface.position[a] - remesh.position[v]); };
+    return *std::min_element(std::begin(r), std::end(r), [&](int a, int b) { return squared(a) < squared(b); });
+}
+
+/// Reference faces at a vertex, on every side of the features that it lies on.
+inline std::vector<int> ReferenceFacesAt(const Model &model, const Remesh &remesh, int v)
+{
+    const Place &place = remesh.place[v];
+    const Triangulation &m = model.surface.mesh;
+    std::vector<int> faces;
+    if (place.kind == VertexKind::Curve) {
+        const FeatureCurve &c = model.features.curve[place.curve];
+        const Side s = c.side[c.SegmentAt(place.s, place.segment)];
+        faces.push_back(SideTriangle(s));
+        if (m.Mate(s) != NoSide)
+            faces.push_back(SideTriangle(m.Mate(s)));
+    } else if (place.kind == VertexKind::Corner) {
+        Star star;
+        m.GatherStar(ReferenceCorner(model, remesh, v), star);
+        for (const Side s : star.corner)
+            faces.push_back(SideTriangle(s));
+    } else {
+        faces.push_back(place.face);
+    }
+    return faces;
+}
 
 /// Squared distance from the surface of a point near vertex v, along the sheet that v lies on; `slack` as
 /// for ReferenceSurface::Project.

@@ -266,7 +266,7 @@ private:
         const InputDefects &d = _report.defects;
         auto warn = [&](int n, const char *one, const char *many) {
             if (n > 0)
-                _report.warnings.push_back(std::to_string(n) + " " + (n == 1 ? one : many));
+                _report.warnings.push_back(Counted(n, one, many));
         };
         warn(d.unreferencedVertices, "vertex that no face uses was dropped", "vertices that no face uses were dropped");
         warn(d.repeatedIndexFaces, "face that names a vertex twice was dropped",

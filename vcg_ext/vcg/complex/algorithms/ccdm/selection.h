@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/disjoint_sets.h>
 #include <vcg/complex/algorithms/ccdm/target_search.h>
 
 namespace vcg {
@@ -84,13 +84,6 @@ private:
         return report;
     }
 
-    static std::string Counted(int n, const char *one, const char *many)
-    {
-        return std::to_string(n) + " " + (n == 1 ? one : many);
-    }
-
-    static bool RepeatsVertex(const std::array<int, 3> &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
-
     struct EdgeUse {
         int a, b; // a < b
         int face, corner;
@@ -128,13 +121,7 @@ private:
         std::vector<int> partIndex(whole.face.size(), -1);
         for (std::size_t k = 0; k < _partFace.size(); ++k)
             partIndex[_partFace[k]] = static_cast<int>(k);
-        std::vector<int> parent(3 * _partFace.size());
-        std::iota(parent.begin(), parent.end(), 0);
-        const auto root = [&](int c) {
-            while (parent[c] != c)
-                c = parent[c] = parent[parent[c]];
-            return c;
-        };
+        DisjointSets corners(3 * _partFace.size());
         const auto cornerAt = [&](int t, int v) {
             const auto &f = whole.face[t];
             return 3 * partIndex[t] + static_cast<int>(std::find(f.begin(), f.end(), v) - f.begin());
@@ -157,7 +144,7 @@ private:
             }
             for (std::size_t k = 1; k < here.size(); ++k)
                 for (const int v : {use[first].a, use[first].b})
-                    parent[root(cornerAt(here[k].face, v))] = root(cornerAt(here[0].face, v));
+                    corners.Join(cornerAt(here[k].face, v), cornerAt(here[0].face, v));
             first = last;
         }
         if (crowded > 0)
@@ -177,8 +164,9 @@ private:
             std::array<int, 3> corner;
             for (int k = 0; k < 3; ++k) {
                 const int v = whole.face[t][k];
-                const auto [at, isNew] = index.try_emplace(std::pair(v, seam[v] != 0 ? root(3 * partIndex[t] + k) : -1),
-                                                           static_cast<int>(_partVertex.size()));
+                const auto [at, isNew] =
+                    index.try_emplace(std::pair(v, seam[v] != 0 ? corners.SetOf(3 * partIndex[t] + k) : -1),
+                                      static_cast<int>(_partVertex.size()));
                 corner[k] = at->second;
                 if (!isNew)
                     continue;
