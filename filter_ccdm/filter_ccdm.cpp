@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filter_ccdm.h"
 
+#include <algorithm>
 #include <exception>
 #include <new>
 
@@ -12,25 +13,37 @@
 #include "host_process.h"
 
 using filter_ccdm::Failure;
+using filter_ccdm::RunningThreads;
 
 namespace {
 
 // The window stays alive during a run, so a second one can be started from within the first, on the same thread.
 // PyMeshLab runs the one plugin object on several threads at once, which is fine.
-thread_local bool running = false;
-
 class RunGuard
 {
 public:
-    RunGuard()
+    explicit RunGuard(RunningThreads &running) : _running(running)
     {
-        if (running)
+        const std::lock_guard<std::mutex> lock(_running.mutex);
+        if (Find() != _running.ids.end())
             throw Failure("this filter is running already; wait until it has finished");
-        running = true;
+        _running.ids.push_back(std::this_thread::get_id());
     }
-    ~RunGuard() { running = false; }
+    ~RunGuard()
+    {
+        const std::lock_guard<std::mutex> lock(_running.mutex);
+        _running.ids.erase(Find());
+    }
     RunGuard(const RunGuard &) = delete;
     RunGuard &operator=(const RunGuard &) = delete;
+
+private:
+    RunningThreads &_running;
+
+    std::vector<std::thread::id>::iterator Find()
+    {
+        return std::find(_running.ids.begin(), _running.ids.end(), std::this_thread::get_id());
+    }
 };
 
 // The layer list shows the base name of the label.
@@ -159,7 +172,7 @@ FilterCcdmPlugin::Outcome FilterCcdmPlugin::Attempt(MeshDocument &document, cons
 {
     Outcome outcome;
     try {
-        const RunGuard guard;
+        const RunGuard guard(_running);
         outcome.outputs = Remesh(document, parameters, progress);
         outcome.done = true;
         return outcome;

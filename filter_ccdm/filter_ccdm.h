@@ -2,10 +2,25 @@
 #ifndef FILTER_CCDM_H
 #define FILTER_CCDM_H
 
+#include <mutex>
+#include <thread>
+#include <vector>
+
 #include <QObject>
 
 #include "host_api.h"
 #include "run_report.h"
+
+namespace filter_ccdm {
+
+/// The threads that are inside of a run. Not a thread-local mark: where there is no memory for that, the C library
+/// ends the process.
+struct RunningThreads {
+    std::mutex mutex;
+    std::vector<std::thread::id> ids;
+};
+
+} // namespace filter_ccdm
 
 /// The remesher as a filter of MeshLab: names, parameters, one call, a report in the log. The host's versions
 /// differ in the signatures only; what they do is in Attempt().
@@ -44,6 +59,8 @@ public:
 #endif
 
 private:
+    filter_ccdm::RunningThreads _running;
+
     enum class Level { Plain, Warning };
     struct Outcome {
         bool done = false;

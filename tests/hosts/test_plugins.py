@@ -52,6 +52,11 @@ def test_needs_no_library_that_a_wheel_lacks(plugin):
     assert re.search(r"FLAGS(_1)?\s+0x0*[0-9a-f]*[189]|BIND_NOW", dynamic), "bound when loaded, not in mid-run"
 
 
+def test_has_no_thread_local_data(plugin):
+    """Where there is no memory for it, the C library ends the host when a thread first asks for it."""
+    assert " TLS " not in output_of("readelf", "-lW", plugin)
+
+
 def test_page_maps_every_parameter():
     rows = page_rows()
     assert [(row[3], row[1].strip("`"), row[0], row[6] == "yes") for row in rows] == declared()
