@@ -12,51 +12,76 @@
 #include <wrap/io_trimesh/export_off.h>
 #include <wrap/io_trimesh/export_ply.h>
 #include <wrap/io_trimesh/export_stl.h>
-#include <wrap/io_trimesh/import.h>
 
-#include "input_guard.h"
-#include "obj_reader.h"
+#include "polygon_soup.h"
 
 namespace ccdm_remesh {
 namespace {
 
 namespace fs = std::filesystem;
-using vcg::tri::io::Mask;
 
 std::string Counted(int n, const char *one, const char *many)
 {
     return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-// vcglib marks the diagonals of split polygons; the marks are of no use here.
-int ClearPolygonMarks(Mesh &mesh)
+// The whole of a regular file; a device might have no end.
+std::string Load(const std::string &path, std::string &content)
 {
-    int marked = 0;
-    for (Face &f : mesh.face) {
-        bool any = false;
-        for (int k = 0; k < 3; ++k) {
-            any = any || f.IsF(k);
-            f.ClearF(k);
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    std::ifstream in(path, std::ios::binary);
+    if (!in || !fs::exists(path))
+        return "it cannot be opened";
+    if (error || !fs::is_regular_file(path) || size == 0)
+        return "it is empty or not a file";
+    content.resize(size);
+    in.read(content.data(), static_cast<std::streamsize>(size));
+    return in ? "" : "it cannot be read to its end";
+}
+
+std::string Parse(const std::string &extension, const std::string &content, PolygonSoup &soup)
+{
+    if (extension == "ply")
+        return ReadPly(content, soup);
+    if (extension == "off")
+        return ReadOff(content, soup);
+    return extension == "obj" ? ReadObj(content, soup) : ReadStl(content, soup);
+}
+
+// Polygons are split. Returns how many triangles come from those of more than three corners.
+int Fill(const PolygonSoup &soup, Mesh &mesh)
+{
+    std::vector<std::array<int, 3>> triangle;
+    std::vector<std::array<double, 3>> corner;
+    int fromPolygons = 0;
+    for (std::size_t k = 0; k < soup.PolygonCount(); ++k) {
+        const int *c = soup.corner.data() + soup.Begin(k), *end = soup.corner.data() + soup.end[k];
+        if (end - c == 3) {
+            triangle.push_back({c[0], c[1], c[2]});
+            continue;
         }
-        marked += any;
+        corner.clear();
+        for (const int *at = c; at != end; ++at)
+            corner.push_back(soup.point[*at]);
+        for (const auto &t : SplitPolygon(corner)) {
+            triangle.push_back({c[t[0]], c[t[1]], c[t[2]]});
+            ++fromPolygons;
+        }
     }
-    return marked;
-}
-
-bool PointsIntoMesh(const Mesh &mesh)
-{
-    const Vertex *first = mesh.vert.data(), *last = first + mesh.vert.size();
-    const auto inside = [&](const Vertex *v) { return v >= first && v < last; };
-    return std::all_of(mesh.face.begin(), mesh.face.end(),
-                       [&](const Face &f) { return inside(f.cV(0)) && inside(f.cV(1)) && inside(f.cV(2)); });
-}
-
-// By vcglib's importers. Returns what went wrong, or an empty string.
-std::string Import(const std::string &path, Mesh &mesh, int &mask)
-{
-    using Importer = vcg::tri::io::Importer<Mesh>;
-    const int error = Importer::Open(mesh, path.c_str(), mask);
-    return error != 0 && Importer::ErrorCritical(error) ? Importer::ErrorMsg(error) : "";
+    auto v = vcg::tri::Allocator<Mesh>::AddVertices(mesh, soup.point.size());
+    for (std::size_t k = 0; k < soup.point.size(); ++k, ++v) {
+        v->P() = vcg::Point3d(soup.point[k][0], soup.point[k][1], soup.point[k][2]);
+        if (!soup.quality.empty())
+            v->Q() = static_cast<float>(soup.quality[k]);
+    }
+    auto f = vcg::tri::Allocator<Mesh>::AddFaces(mesh, triangle.size());
+    for (const auto &t : triangle) {
+        for (int k = 0; k < 3; ++k)
+            f->V(k) = &mesh.vert[t[k]];
+        ++f;
+    }
+    return fromPolygons;
 }
 
 // Coordinates with as many digits as it takes to read the same numbers back.
@@ -195,23 +220,18 @@ ReadResult ReadMesh(const std::string &path, Mesh &mesh)
         r.fault = "its format is not known (ply, off, obj and stl are)";
         return r;
     }
-    r.fault = FindFileFault(path, extension);
+    PolygonSoup soup;
+    std::string content;
+    r.fault = Load(path, content);
+    if (r.fault.empty())
+        r.fault = Parse(extension, content, soup);
+    if (r.fault.empty())
+        r.fault = CheckIndices(soup);
     if (!r.fault.empty())
         return r;
-    int fromPolygons = 0, mask = 0;
-    try {
-        r.fault = extension == "obj" ? ReadObj(path, mesh, fromPolygons) : Import(path, mesh, mask);
-    } catch (const std::exception &e) {
-        r.fault = e.what();
-    }
-    if (!r.fault.empty())
-        return r;
-    if (!PointsIntoMesh(mesh)) {
-        r.fault = "a face names a vertex that does not exist";
-        return r;
-    }
-    r.hasQuality = (mask & Mask::IOM_VERTQUALITY) != 0;
-    fromPolygons += ClearPolygonMarks(mesh);
+    content = std::string();
+    r.hasQuality = !soup.quality.empty();
+    const int fromPolygons = Fill(soup, mesh);
     if (fromPolygons > 0)
         r.notes.push_back(Counted(fromPolygons, "triangle comes", "triangles come") + " from polygons that were split");
     if (extension == "stl")

@@ -332,6 +332,7 @@ private:
         rules.allOfBoundaries = _params.boundary == BoundaryKind::Fixed;
         rules.locked = input.locked;
         model.features = FeatureTracer(surface, model.density.spacing, marked, rules).Trace();
+        WidenForCurves(model.features, _params.vertexCount, model.density.spacing);
         _report.featureCurves = static_cast<int>(model.features.curve.size());
         _report.featureCorners = static_cast<int>(model.features.corner.size());
         _report.prunedFragments = dropped + model.features.pruned;

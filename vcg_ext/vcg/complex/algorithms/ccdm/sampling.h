@@ -59,6 +59,20 @@ inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int 
     }
 }
 
+/// Widens the spacing where the vertices could not even be a quarter of those that it wants on the curves, as on a
+/// needle: what follows takes time in proportion to the samples.
+inline void WidenForCurves(const FeatureGraph &features, int vertices, std::vector<double> &spacing)
+{
+    double wanted = 0;
+    for (const FeatureCurve &c : features.curve)
+        for (int k = 0; k < c.Segments(); ++k)
+            wanted += 2 * (c.arc[k + 1] - c.arc[k]) / (spacing[c.vertex[k]] + spacing[c.vertex[k + 1]]);
+    const double factor = wanted / (4.0 * vertices);
+    if (factor > 1)
+        for (double &h : spacing)
+            h *= factor;
+}
+
 /// Samples of all curves, `stretch` times as far apart as the density wants.
 inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, const FeatureGraph &features,
                                              const DensityField &density, double stretch = 1)

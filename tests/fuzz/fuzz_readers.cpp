@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bytes as a mesh file: read, remeshed if it is small, written and read again. The first byte is the format's.
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <vcg/complex/algorithms/ccdm_remeshing.h>
+
+#include "fuzz/bytes.h"
+#include "mesh_io.h"
+
+namespace {
+
+using ccdm_remesh::Mesh;
+using vcg::ccdm::Status;
+
+constexpr int MostFaces = 60;
+
+// A file of this process, in memory where there is such a file system.
+class ScratchFile
+{
+public:
+    explicit ScratchFile(const char *extension)
+    {
+        static const std::string folder = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
+        path = folder + "/ccdm_fuzz_" + std::to_string(getpid()) + "." + extension;
+    }
+    ~ScratchFile() { std::remove(path.c_str()); }
+    ScratchFile(const ScratchFile &) = delete;
+    ScratchFile &operator=(const ScratchFile &) = delete;
+
+    std::string path;
+};
+
+void Expect(bool holds, const char *what)
+{
+    if (holds)
+        return;
+    std::fprintf(stderr, "broken promise: %s\n", what);
+    std::abort();
+}
+
+// Written and read again, a mesh is the same.
+void GoThereAndBack(Mesh &mesh, const char *extension)
+{
+    const ScratchFile file(extension);
+    const std::string fault = ccdm_remesh::WriteMesh(file.path, mesh);
+    const bool single = std::strcmp(extension, "stl") == 0; // has neither numbers nor double precision
+    if (!fault.empty()) {
+        Expect(single, "a result could not be written");
+        return;
+    }
+    Mesh again;
+    Expect(ccdm_remesh::ReadMesh(file.path, again).fault.empty(), "a written file could not be read");
+    Expect(again.FN() == mesh.FN(), "faces were lost in a file");
+    Expect(single || again.VN() == mesh.VN(), "vertices were lost in a file");
+    for (int v = 0; v < mesh.VN() && !single && std::strcmp(extension, "off") != 0; ++v)
+        Expect(again.vert[v].cP() == mesh.vert[v].cP(), "a coordinate changed in a file");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+{
+    if (size == 0)
+        return 0;
+    constexpr const char *extensions[] = {"ply", "off", "obj", "stl"};
+    const char *extension = extensions[data[0] % 4];
+    const ScratchFile file(extension);
+    std::ofstream(file.path, std::ios::binary)
+        .write(reinterpret_cast<const char *>(data + 1), static_cast<std::streamsize>(size - 1));
+    Mesh mesh;
+    const ccdm_remesh::ReadResult read = ccdm_remesh::ReadMesh(file.path, mesh);
+    if (!read.fault.empty() || mesh.FN() > MostFaces)
+        return 0;
+    vcg::ccdm::Params params;
+    params.vertexCount = 4 + data[0] / 16;
+    params.globalIterations = 0;
+    params.threads = 1;
+    Mesh result;
+    const vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(mesh, result, params);
+    Expect(report.status == Status::Done || !report.message.empty(), "a refusal without a reason");
+    if (report.status == Status::Done)
+        GoThereAndBack(result, extension);
+    return 0;
+}

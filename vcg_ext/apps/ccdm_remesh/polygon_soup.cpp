@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "polygon_soup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ccdm_remesh {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point Minus(const Point &a, const Point &b)
+{
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Point Cross(const Point &a, const Point &b)
+{
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double Dot(const Point &a, const Point &b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// A polygon while ears are cut off it.
+class EarClipper
+{
+public:
+    explicit EarClipper(const std::vector<Point> &corner) : _corner(corner), _left(corner.size())
+    {
+        std::iota(_left.begin(), _left.end(), 0);
+        // Newell: the sum over a fan, whichever way that folds.
+        for (std::size_t k = 1; k + 1 < corner.size(); ++k) {
+            const Point n = Cross(Minus(corner[k], corner[0]), Minus(corner[k + 1], corner[0]));
+            for (int i = 0; i < 3; ++i)
+                _normal[i] += n[i];
+        }
+    }
+
+    std::vector<std::array<int, 3>> Run()
+    {
+        std::vector<std::array<int, 3>> triangles;
+        while (_left.size() > 3) {
+            // Where there is no ear, as in a polygon that crosses itself, any corner goes.
+            std::size_t best = 0;
+            double bestAngle = -1;
+            for (std::size_t k = 0; k < _left.size(); ++k) {
+                const double angle = IsEar(k) ? SmallestAngle(k) : -1;
+                if (angle > bestAngle) {
+                    best = k;
+                    bestAngle = angle;
+                }
+            }
+            triangles.push_back({At(best + Size() - 1), At(best), At(best + 1)});
+            _left.erase(_left.begin() + static_cast<std::ptrdiff_t>(best));
+        }
+        triangles.push_back({_left[0], _left[1], _left[2]});
+        return triangles;
+    }
+
+private:
+    const std::vector<Point> &_corner;
+    std::vector<int> _left;
+    Point _normal = {0, 0, 0};
+
+    std::size_t Size() const { return _left.size(); }
+    int At(std::size_t k) const { return _left[k % Size()]; }
+
+    bool TurnsLeft(const Point &a, const Point &b, const Point &c) const
+    {
+        return Dot(Cross(Minus(b, a), Minus(c, a)), _normal) > 0;
+    }
+
+    bool IsEar(std::size_t k) const
+    {
+        const Point &a = _corner[At(k + Size() - 1)], &b = _corner[At(k)], &c = _corner[At(k + 1)];
+        if (!TurnsLeft(a, b, c))
+            return false;
+        for (std::size_t i = 2; i + 1 < Size(); ++i) {
+            const Point &p = _corner[At(k + i)];
+            if (p != a && p != c && !TurnsLeft(b, a, p) && !TurnsLeft(c, b, p) && !TurnsLeft(a, c, p))
+                return false;
+        }
+        return true;
+    }
+
+    double SmallestAngle(std::size_t k) const
+    {
+        const Point &a = _corner[At(k + Size() - 1)], &b = _corner[At(k)], &c = _corner[At(k + 1)];
+        const auto angle = [](const Point &p, const Point &q, const Point &r) {
+            const Point u = Minus(q, p), v = Minus(r, p), n = Cross(u, v);
+            return std::atan2(std::sqrt(Dot(n, n)), Dot(u, v));
+        };
+        return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
+    }
+};
+
+} // namespace
+
+std::string CheckIndices(const PolygonSoup &soup)
+{
+    for (std::size_t k = 0; k < soup.PolygonCount(); ++k) {
+        if (soup.end[k] - soup.Begin(k) < 3)
+            return "face " + std::to_string(k) + " has fewer than three corners";
+        for (std::size_t i = soup.Begin(k); i < soup.end[k]; ++i)
+            if (soup.corner[i] < 0 || static_cast<std::size_t>(soup.corner[i]) >= soup.point.size())
+                return "face " + std::to_string(k) + " names a vertex that does not exist";
+    }
+    return "";
+}
+
+std::vector<std::array<int, 3>> SplitPolygon(const std::vector<std::array<double, 3>> &corner)
+{
+    // Cutting ears takes quadratic to cubic time.
+    constexpr std::size_t mostForEars = 300;
+    if (corner.size() <= mostForEars)
+        return EarClipper(corner).Run();
+    std::vector<std::array<int, 3>> fan;
+    for (int k = 2; k < static_cast<int>(corner.size()); ++k)
+        fan.push_back({0, k - 1, k});
+    return fan;
+}
+
+} // namespace ccdm_remesh
