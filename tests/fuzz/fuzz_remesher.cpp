@@ -24,7 +24,7 @@ Params ParamsFromBytes(fuzz::Bytes &in)
     if (target == 0)
         p.edgeLength = 0.25 * in.Between(1, 40);
     else if (target == 1)
-        p.maxError = 0.01 * in.Between(2, 30);
+        p.maxError = 0.01 * in.Between(6, 30);
     else
         p.vertexCount = in.Between(4, target < 12 ? 200 : 40);
     constexpr double angles[] = {40, 180, 5, 60, 90};
@@ -36,6 +36,7 @@ Params ParamsFromBytes(fuzz::Bytes &in)
     p.relocation = static_cast<RelocationKind>(in.Below(3));
     p.density = static_cast<DensityKind>(in.Below(3));
     p.boundary = static_cast<BoundaryKind>(in.Below(3));
+    p.repair = static_cast<RepairKind>(in.Below(2));
     constexpr double weights[] = {0.25, 0, 0.5, 1};
     p.approximation = weights[in.Below(4)];
     p.lambda = in.Below(5) * 0.25;

@@ -112,32 +112,28 @@ int ExportObj(const std::string &path, const Mesh &mesh)
     return out ? 0 : 1;
 }
 
-// What single precision would spoil; empty if nothing.
+// What single precision, and corners that are one vertex where they are at one place, would spoil; empty if nothing.
 std::string FindStlFault(const Mesh &mesh)
 {
-    struct Corner {
-        vcg::Point3f single;
-        vcg::Point3d exact;
-    };
-    std::vector<Corner> corner;
+    std::vector<vcg::Point3f> corner;
     for (const Vertex &v : mesh.vert)
-        corner.push_back({vcg::Point3f::Construct(v.cP()), v.cP()});
+        corner.push_back(vcg::Point3f::Construct(v.cP()));
     int collapsed = 0, joined = 0;
     for (const Face &f : mesh.face) {
         std::array<vcg::Point3d, 3> p;
         for (int k = 0; k < 3; ++k)
-            p[k] = vcg::Point3d::Construct(corner[vcg::tri::Index(mesh, f.cV(k))].single);
+            p[k] = vcg::Point3d::Construct(corner[vcg::tri::Index(mesh, f.cV(k))]);
         const vcg::Point3d exact = vcg::TriangleNormal(f).Normalize();
         const vcg::Point3d single = ((p[1] - p[0]) ^ (p[2] - p[0])).Normalize();
         // Also false for infinities.
         collapsed += exact.SquaredNorm() > 0 && !(exact * single > 0);
     }
-    std::sort(corner.begin(), corner.end(), [](const Corner &a, const Corner &b) { return a.single < b.single; });
+    std::sort(corner.begin(), corner.end());
     for (std::size_t k = 1; k < corner.size(); ++k)
-        joined += corner[k].single == corner[k - 1].single && corner[k].exact != corner[k - 1].exact;
+        joined += corner[k] == corner[k - 1];
     if (collapsed == 0 && joined == 0)
         return "";
-    return "STL has single precision, which would collapse or turn over " +
+    return "STL has single precision and joins what is at one place, which would collapse or turn over " +
            Counted(collapsed, "triangle", "triangles") + " and join " + Counted(joined, "vertex", "vertices") +
            " to others; ply, off and obj keep the mesh";
 }

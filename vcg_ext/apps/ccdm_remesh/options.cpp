@@ -24,6 +24,7 @@ using vcg::ccdm::BoundaryKind;
 using vcg::ccdm::DensityKind;
 using vcg::ccdm::OptimizerKind;
 using vcg::ccdm::RelocationKind;
+using vcg::ccdm::RepairKind;
 using vcg::ccdm::SamplerKind;
 using vcg::ccdm::TargetKind;
 
@@ -36,6 +37,7 @@ const std::map<std::string, OptimizerKind> optimizers = {{"accelerated", Optimiz
 const std::map<std::string, RelocationKind> relocations = {{"cpt", RelocationKind::PatchCentroid},
                                                            {"cvt", RelocationKind::CellCentroid},
                                                            {"odt", RelocationKind::Circumcentres}};
+const std::map<std::string, RepairKind> repairs = {{"harmless", RepairKind::Harmless}, {"split", RepairKind::Split}};
 const std::map<std::string, TargetKind> targets = {
     {"vertices", TargetKind::Vertices}, {"edge_length", TargetKind::EdgeLength}, {"max_error", TargetKind::MaxError}};
 const std::map<std::string, SamplerKind> samplers = {{"front", SamplerKind::Front}, {"random", SamplerKind::Random}};
@@ -111,6 +113,10 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     AddChoice(app, "--boundary", p.boundary, boundaries,
               "sliding (default): corners of the boundary stay, its other vertices are replaced; fixed: all of its "
               "vertices stay; smooth: none, sharp turns are rounded off");
+    AddChoice(app, "--repair", p.repair, repairs,
+              "what is mended of an input that is no surface; harmless (default): nothing that changes it, which is "
+              "refused with the places; split: it is cut apart at edges of more than two faces and at vertices that "
+              "join several sheets");
     AddChoice(app, "--optimizer", p.optimizer, optimizers, "accelerated (default), or annealing: the paper's");
     AddChoice(app, "--sampler", p.sampler, samplers,
               "front (default): laid out in hexagons; or random: drawn in proportion to the density");
@@ -239,6 +245,10 @@ const char *NameOf(OptimizerKind k)
 const char *NameOf(RelocationKind k)
 {
     return Lookup(relocations, k);
+}
+const char *NameOf(RepairKind k)
+{
+    return Lookup(repairs, k);
 }
 const char *NameOf(SamplerKind k)
 {

@@ -21,6 +21,7 @@ const char *NameOf(vcg::ccdm::BoundaryKind k);
 const char *NameOf(vcg::ccdm::DensityKind k);
 const char *NameOf(vcg::ccdm::OptimizerKind k);
 const char *NameOf(vcg::ccdm::RelocationKind k);
+const char *NameOf(vcg::ccdm::RepairKind k);
 const char *NameOf(vcg::ccdm::SamplerKind k);
 const char *NameOf(vcg::ccdm::TargetKind k);
 

@@ -56,6 +56,7 @@ Json ParametersJson(const vcg::ccdm::Params &p)
     j["global_iterations"] = GlobalIterations(p);
     j["local_iterations"] = p.localIterations;
     j["boundary"] = NameOf(p.boundary);
+    j["repair"] = NameOf(p.repair);
     j["density"] = NameOf(p.density);
     j["density_exponent"] = DensityExponent(p);
     j["min_angle"] = MinAngle(p);
@@ -73,11 +74,16 @@ Json DefectsJson(const vcg::ccdm::InputDefects &d)
     j["unreferenced_vertices"] = d.unreferencedVertices;
     j["repeated_index_faces"] = d.repeatedIndexFaces;
     j["zero_area_faces"] = d.zeroAreaFaces;
+    j["turned_faces"] = d.turnedFaces;
+    j["merged_vertices"] = d.mergedVertices;
+    j["copied_vertices"] = d.copiedVertices;
     j["non_finite_vertices"] = d.nonFiniteVertices;
     j["non_manifold_edges"] = d.nonManifoldEdges;
     j["non_manifold_vertices"] = d.nonManifoldVertices;
     j["duplicate_faces"] = d.duplicateFaces;
     j["bad_density_vertices"] = d.badDensityVertices;
+    j["refused_edges"] = d.refusedEdges;
+    j["refused_vertices"] = d.refusedVertices;
     return j;
 }
 
@@ -141,6 +147,11 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         j["result"]["file"] = options.output;
         j["result"]["hausdorff"] = run.distance ? Number(run.distance->hausdorff) : Json(nullptr);
         j["result"]["rms"] = run.distance ? Number(run.distance->rms) : Json(nullptr);
+        if (run.selfIntersections) {
+            j["input"]["self_intersections"] = run.selfIntersections->before;
+            j["result"]["self_intersections"] = run.selfIntersections->after;
+            j["result"]["new_self_intersecting_faces"] = run.selfIntersections->newFaces;
+        }
         j["result"]["extra_vertices"] = e.extraVertices;
         j["result"]["mean_edge_length"] = Number(e.meanEdgeLength);
     }
@@ -213,6 +224,9 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";
+    if (run.selfIntersections && run.selfIntersections->before + run.selfIntersections->after > 0)
+        out << "  pairs of faces that cross: " << run.selfIntersections->before << " before, "
+            << run.selfIntersections->after << " after; faces in new ones: " << run.selfIntersections->newFaces << '\n';
     for (const std::string &w : run.engine.warnings)
         out << "  note: " << w << '\n';
 }

@@ -20,6 +20,7 @@ struct RunSummary {
     vcg::ccdm::Report engine;
     std::optional<vcg::tri::MeshQualityReport> before, after;
     std::optional<vcg::tri::SurfaceDistance> distance;
+    std::optional<vcg::tri::SelfIntersectionCounts> selfIntersections;
     double seconds = 0; ///< wall time of reading, remeshing, writing and measuring
 };
 

@@ -15,6 +15,7 @@
 #include <vcg/complex/complex.h>
 #include <vcg/space/point3.h>
 
+#include <vcg/complex/algorithms/mesh_quality/self_intersections.h>
 #include <vcg/complex/algorithms/mesh_quality/surface_distance.h>
 
 namespace vcg {
@@ -57,6 +58,13 @@ struct SurfaceDistance {
     double hausdorffBackward = 0; ///< from the second to the first
 };
 
+/// Pairs of faces that meet elsewhere than in what they share.
+struct SelfIntersectionCounts {
+    long long before = 0; ///< of the original
+    long long after = 0;  ///< of the result
+    int newFaces = 0;     ///< of the result in such pairs, further than two edges from where the original has any
+};
+
 /// Metrics of any triangle mesh, manifold or not; the paper's, and those of its peers.
 template <class MeshType>
 class MeshQuality
@@ -85,6 +93,36 @@ public:
         d.hausdorff = std::max(d.hausdorffForward, d.hausdorffBackward);
         d.rms = std::max(forward.rms, backward.rms) / diagonal;
         return d;
+    }
+
+    /// Exact, but for what is near in `newFaces`.
+    template <class OtherMesh>
+    static SelfIntersectionCounts CountSelfIntersections(const MeshType &original, const OtherMesh &result)
+    {
+        TriangleSoup a = TriangleSoup::From(original), b = TriangleSoup::From(result);
+        const SelfIntersections before(a), after(b);
+        SelfIntersectionCounts counts;
+        counts.before = before.pairs;
+        counts.after = after.pairs;
+        counts.newFaces = static_cast<int>(after.face.size());
+        if (before.face.empty() || after.face.empty())
+            return counts;
+        const UnitFrame frame(a);
+        std::vector<TriangleSoup::Face> crossed;
+        for (const int t : before.face)
+            crossed.push_back(a.face[t]);
+        a.face = crossed;
+        a = frame.Place(std::move(a));
+        b = frame.Place(std::move(b));
+        const TriangleTree tree(a);
+        int hint = -1;
+        for (const int t : after.face) {
+            const auto &[i, j, k] = b.face[t];
+            const Vector &p = b.point[i], &q = b.point[j], &r = b.point[k];
+            const double edge = std::max({(p - q).SquaredNorm(), (q - r).SquaredNorm(), (r - p).SquaredNorm()});
+            counts.newFaces -= tree.SquaredDistance((p + q + r) / 3.0, hint) <= 4 * edge;
+        }
+        return counts;
     }
 
 private:

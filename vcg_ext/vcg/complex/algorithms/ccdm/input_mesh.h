@@ -26,6 +26,7 @@ struct MeshTables {
     SideMarks marked;                     ///< features: one bit a side, opposite corner 0, 1, 2; empty: none
     SideMarks locked;                     ///< the same: boundary sides that stay as they are, undivided
     std::vector<double> field;            ///< wanted density at each vertex; empty: none
+    std::vector<int> vertexName;          ///< what messages call each vertex; empty: its index
 };
 
 /// Whether a face names a vertex twice.
@@ -38,6 +39,19 @@ inline bool RepeatsVertex(const std::array<int, 3> &f)
 inline std::string Counted(int n, const char *one, const char *many)
 {
     return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// The first few of a list of places in words, such as ": vertices 3, 7 and 2 more".
+template <class Place, class Words>
+std::string Listed(const char *one, const char *many, const std::vector<Place> &places, int count, const Words &words)
+{
+    constexpr std::size_t most = 5;
+    std::string list = std::string(": ") + (count == 1 ? one : many);
+    const std::size_t shown = std::min(most, places.size());
+    for (std::size_t k = 0; k < shown; ++k)
+        list += (k == 0 ? " " : ", ") + words(places[k]);
+    const int left = count - static_cast<int>(shown);
+    return left > 0 ? list + " and " + std::to_string(left) + " more" : list;
 }
 
 /// The input made ready: unreferenced vertices and faces that repeat a vertex dropped, scaled to about
@@ -72,6 +86,22 @@ public:
 private:
     Point _center = Point(0, 0, 0);
     double _scale = 1;
+    std::vector<int> _name; // of the input's vertices, if they have any
+
+    // What the caller calls a vertex of the input.
+    int Name(int v) const { return _name.empty() ? v : _name[v]; }
+
+    // The first of the refused vertices, as the caller calls them, and a list in words.
+    std::string ListVertices(std::vector<int> refused)
+    {
+        for (int &v : refused)
+            v = Name(v);
+        std::sort(refused.begin(), refused.end());
+        const int count = static_cast<int>(refused.size());
+        refused.resize(std::min(refused.size(), InputDefects::MostPlaces));
+        defects.refusedVertices = refused;
+        return Listed("vertex", "vertices", refused, count, [](int v) { return std::to_string(v); });
+    }
 
     bool Refuse(const std::string &why)
     {
@@ -81,6 +111,7 @@ private:
 
     bool Select(const MeshTables &input)
     {
+        _name = input.vertexName;
         if (input.face.empty())
             return Refuse(input.position.empty() ? "the mesh is empty" : "the mesh has no faces");
         std::vector<char> used(input.position.size(), 0);
@@ -98,7 +129,7 @@ private:
         if (faces.empty())
             return Refuse("every face names a vertex twice");
         Bounds box;
-        std::vector<int> kept;
+        std::vector<int> kept, nonFinite, badDensity;
         for (std::size_t v = 0; v < used.size(); ++v) {
             const Point &p = input.position[v];
             if (!used[v]) {
@@ -107,18 +138,20 @@ private:
             }
             kept.push_back(static_cast<int>(v));
             if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-                ++defects.nonFiniteVertices;
+                nonFinite.push_back(static_cast<int>(v));
             else
                 box.Add(p);
             if (!input.field.empty() && !(std::isfinite(input.field[v]) && input.field[v] >= 0))
-                ++defects.badDensityVertices;
+                badDensity.push_back(static_cast<int>(v));
         }
+        defects.nonFiniteVertices = static_cast<int>(nonFinite.size());
+        defects.badDensityVertices = static_cast<int>(badDensity.size());
         if (defects.nonFiniteVertices > 0)
             return Refuse(Counted(defects.nonFiniteVertices, "vertex has", "vertices have") +
-                          " coordinates that are not finite");
+                          " coordinates that are not finite" + ListVertices(nonFinite));
         if (defects.badDensityVertices > 0)
             return Refuse(Counted(defects.badDensityVertices, "vertex has", "vertices have") +
-                          " a density that is negative or not finite");
+                          " a density that is negative or not finite" + ListVertices(badDensity));
         // A power of two scales without rounding.
         const double diagonal = box.Diagonal();
         if (!(diagonal > 0) || !std::isfinite(diagonal))
@@ -232,11 +265,47 @@ private:
             defects.nonManifoldEdges += edges;
         }
         if (defects.nonManifoldEdges > 0)
-            return Refuse(Counted(defects.nonManifoldEdges, "edge has", "edges have") + " more than two faces");
+            return Refuse(Counted(defects.nonManifoldEdges, "edge has", "edges have") + " more than two faces" +
+                          ListCrowdedEdges(other, start));
         if (defects.duplicateFaces > 0)
             return Refuse(Counted(defects.duplicateFaces, "face repeats", "faces repeat") +
-                          " the three vertices of another");
+                          " the three vertices of another" + ListRepeatedFaces());
         return true;
+    }
+
+    // From the larger ends of all sides, sorted for each smaller one.
+    std::string ListCrowdedEdges(const std::vector<int> &other, const std::vector<int> &start)
+    {
+        std::vector<std::array<int, 2>> edges;
+        for (std::size_t v = 0; v + 1 < start.size(); ++v)
+            for (int k = start[v]; k + 2 < start[v + 1]; ++k)
+                if (other[k] == other[k + 2] && (k == start[v] || other[k] != other[k - 1])) {
+                    const auto [a, b] = std::minmax({Name(original[v]), Name(original[other[k]])});
+                    edges.push_back({a, b});
+                }
+        std::sort(edges.begin(), edges.end());
+        edges.resize(std::min(edges.size(), InputDefects::MostPlaces));
+        defects.refusedEdges = edges;
+        return Listed("vertices", "vertices", edges, defects.nonManifoldEdges,
+                      [](const auto &e) { return std::to_string(e[0]) + "-" + std::to_string(e[1]); });
+    }
+
+    // By their vertices.
+    std::string ListRepeatedFaces()
+    {
+        std::vector<std::array<int, 3>> faces;
+        for (const auto &f : mesh.face) {
+            faces.push_back({Name(original[f[0]]), Name(original[f[1]]), Name(original[f[2]])});
+            std::sort(faces.back().begin(), faces.back().end());
+        }
+        std::sort(faces.begin(), faces.end());
+        std::vector<std::array<int, 3>> repeated;
+        for (std::size_t k = 1; k < faces.size(); ++k)
+            if (faces[k] == faces[k - 1])
+                repeated.push_back(faces[k]);
+        return Listed("vertices", "vertices", repeated, defects.duplicateFaces, [](const auto &f) {
+            return std::to_string(f[0]) + "-" + std::to_string(f[1]) + "-" + std::to_string(f[2]);
+        });
     }
 
     // Of faces [first, last), which share their lowest vertex; `opposite` is scratch.
@@ -274,18 +343,22 @@ private:
         for (const auto &f : mesh.face)
             for (const int v : f)
                 ++corners[v];
-        std::vector<int> found(Chunks::Count(vertices), 0);
+        std::vector<std::vector<int>> found(Chunks::Count(vertices));
         Chunks::For(workers, vertices, [&](int first, int last, int chunk) {
             Star star;
             for (int v = first; v < last; ++v) {
                 tables.GatherStar(v, star);
-                found[chunk] += star.Triangles() != corners[v];
+                if (star.Triangles() != corners[v])
+                    found[chunk].push_back(original[v]);
             }
         });
-        defects.nonManifoldVertices = std::accumulate(found.begin(), found.end(), 0);
-        if (defects.nonManifoldVertices > 0)
+        std::vector<int> joints;
+        for (const std::vector<int> &some : found)
+            joints.insert(joints.end(), some.begin(), some.end());
+        defects.nonManifoldVertices = static_cast<int>(joints.size());
+        if (!joints.empty())
             return Refuse(Counted(defects.nonManifoldVertices, "vertex joins", "vertices join") +
-                          " several sheets (its faces form more than one fan)");
+                          " several sheets (the faces there form more than one fan)" + ListVertices(joints));
         if (Orient())
             tables.Build(vertices, mesh.face);
         const Verification proof(tables, workers);
@@ -293,7 +366,7 @@ private:
         return proof.fault.empty() || Refuse(proof.fault);
     }
 
-    // Turns faces so that each component is coherent with its first face; across the seams of a
+    // Turns faces so that each component is coherent and most of its faces stay as they are; across the seams of a
     // one-sided surface neighbours stay as they are. Whether any face was turned.
     bool Orient()
     {
@@ -304,24 +377,28 @@ private:
                 continue;
             turn[t0] = 1;
             queue.assign(1, static_cast<int>(t0));
+            std::size_t against = 0;
             for (std::size_t k = 0; k < queue.size(); ++k)
                 for (int e = 0; e < 3; ++e) {
                     const Side s = MakeSide(queue[k], e), mate = tables.Mate(s);
                     if (mate == NoSide || turn[SideTriangle(mate)] != 0)
                         continue;
-                    turn[SideTriangle(mate)] =
-                        static_cast<signed char>(tables.Coherent(s) ? turn[queue[k]] : -turn[queue[k]]);
+                    const bool turned = (turn[queue[k]] < 0) == tables.Coherent(s);
+                    turn[SideTriangle(mate)] = turned ? -1 : 1;
+                    against += turned;
                     queue.push_back(SideTriangle(mate));
                 }
+            if (2 * against > queue.size())
+                for (const int t : queue)
+                    turn[t] = static_cast<signed char>(-turn[t]);
         }
-        bool any = false;
         for (std::size_t t = 0; t < mesh.face.size(); ++t) {
             if (turn[t] > 0)
                 continue;
-            any = true;
+            ++defects.turnedFaces;
             std::swap(mesh.face[t][1], mesh.face[t][2]);
         }
-        return any;
+        return defects.turnedFaces > 0;
     }
 
     void CheckArea()

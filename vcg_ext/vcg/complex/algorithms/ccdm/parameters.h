@@ -47,6 +47,14 @@ enum class BoundaryKind {
     Smooth   ///< none of its vertices need stay: sharp turns are rounded off
 };
 
+/// What is done about an input that is no 2-manifold. Vertices that no face uses, faces that name a vertex twice or
+/// repeat another, boundaries that are cut where the surface goes on, and faces turned against their neighbours are
+/// mended always.
+enum class RepairKind {
+    Harmless, ///< nothing that changes the surface: it is refused
+    Split     ///< faces are cut apart at edges of more than two faces, and sheets at vertices that join them
+};
+
 /// What a run is asked to reach.
 enum class TargetKind {
     Vertices,   ///< a number of vertices
@@ -70,6 +78,7 @@ struct Params {
     /// Takes the edges that the caller has marked as features in addition to those found by angle.
     bool useMarkedEdges = false;
     BoundaryKind boundary = BoundaryKind::Sliding;
+    RepairKind repair = RepairKind::Harmless;
     /// Remeshes the selected faces only; all other vertices and faces stay as they are, and so do the edges between
     /// the two parts. The vertex count is that of the whole result; errors and lengths are about the remeshed part.
     bool selectedFacesOnly = false;
@@ -162,11 +171,18 @@ struct InputDefects {
     int unreferencedVertices = 0; ///< dropped with a warning
     int repeatedIndexFaces = 0;   ///< faces that name a vertex twice; dropped with a warning
     int zeroAreaFaces = 0;        ///< kept: they carry no sample
+    int turnedFaces = 0;          ///< turned over to agree with their neighbours, with a warning if there are two sides
+    int mergedVertices = 0;       ///< vertices of a cut boundary that were merged into others at their positions
+    int copiedVertices = 0;       ///< new vertices where the surface was cut apart
     int nonFiniteVertices = 0;    ///< refused
-    int nonManifoldEdges = 0;     ///< edges of more than two faces; refused
-    int nonManifoldVertices = 0;  ///< vertices whose faces form more than one fan; refused
-    int duplicateFaces = 0;       ///< faces on the same three vertices; refused
+    int nonManifoldEdges = 0;     ///< edges of more than two faces; refused, or cut apart
+    int nonManifoldVertices = 0;  ///< vertices whose faces form more than one fan; refused, or cut apart
+    int duplicateFaces = 0;       ///< faces on the same three vertices; dropped, or refused if they are a component
     int badDensityVertices = 0;   ///< density values that are negative or not finite; refused
+
+    static constexpr std::size_t MostPlaces = 10;
+    std::vector<std::array<int, 2>> refusedEdges; ///< the first of those refused, by their vertices
+    std::vector<int> refusedVertices;             ///< the first of those refused
 };
 
 /// Topological type of a surface.

@@ -14,7 +14,7 @@
 #include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
 #include <vcg/complex/algorithms/ccdm/initial_mesh.h>
-#include <vcg/complex/algorithms/ccdm/input_mesh.h>
+#include <vcg/complex/algorithms/ccdm/input_repair.h>
 #include <vcg/complex/algorithms/ccdm/optimizer.h>
 #include <vcg/complex/algorithms/ccdm/provenance.h>
 #include <vcg/complex/algorithms/ccdm/result_check.h>
@@ -61,7 +61,8 @@ private:
 
         if (!Begin("checking the input", 0, 3))
             return false;
-        InputMesh prepared(input, _workers);
+        SoundInput sound(input, _params.repair, _workers);
+        InputMesh &prepared = sound.Prepared();
         _report.defects = prepared.defects;
         _report.inputTopology = prepared.topology;
         if (!prepared.refusal.empty())
@@ -83,10 +84,13 @@ private:
         if (!AttemptAll(model, remesh))
             return false;
         Certify(model, remesh, thin, prepared);
-        const ProvenanceFinder finder(model, remesh, prepared, input);
-        if (provenance != nullptr)
+        const ProvenanceFinder finder(model, remesh, prepared, sound.Tables());
+        WriteBack(prepared, remesh, finder, sound.Tables(), output);
+        if (provenance != nullptr) {
             *provenance = finder.Run(_workers);
-        WriteBack(prepared, remesh, finder, input, output);
+            for (int &v : provenance->sameVertex)
+                v = v < 0 ? v : sound.CallersVertex(v);
+        }
         _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
         return true;
@@ -272,6 +276,17 @@ private:
         warn(d.repeatedIndexFaces, "face that names a vertex twice was dropped",
              "faces that name a vertex twice were dropped");
         warn(d.zeroAreaFaces, "input face has no area", "input faces have no area");
+        warn(d.duplicateFaces, "face that repeats another was dropped", "faces that repeat others were dropped");
+        warn(d.mergedVertices, "vertex was merged into another at its position, as that makes the surface one",
+             "vertices were merged into others at their positions, as that makes the surface one");
+        if (_report.inputTopology.orientable)
+            warn(d.turnedFaces, "face was turned over to agree with its neighbours",
+                 "faces were turned over to agree with their neighbours");
+        if (d.copiedVertices > 0)
+            _report.warnings.push_back("the surface was cut apart at " + Counted(d.nonManifoldEdges, "edge", "edges") +
+                                       " of more than two faces, and " +
+                                       Counted(d.nonManifoldVertices, "vertex", "vertices") + " got " +
+                                       Counted(d.copiedVertices, "copy", "copies"));
     }
 
     void WarnOfNarrowPlaces(ThinParts &thin, const InputMesh &prepared)

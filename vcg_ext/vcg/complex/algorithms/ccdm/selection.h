@@ -173,6 +173,7 @@ private:
                 if (seam[v] != 0)
                     _onSeam.push_back(at->second);
                 _partVertex.push_back(v);
+                _part.vertexName.push_back(v);
                 _part.position.push_back(whole.position[v]);
                 if (!whole.field.empty())
                     _part.field.push_back(whole.field[v]);

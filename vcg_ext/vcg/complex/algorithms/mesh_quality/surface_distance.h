@@ -121,6 +121,7 @@ public:
         if (n > 0)
             Split(soup, centre, order, 0, static_cast<int>(n));
         _corner.reserve(n);
+        _face = order;
         for (const int t : order) {
             const auto &f = soup.face[t];
             _corner.push_back({soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]});
@@ -156,6 +157,47 @@ public:
         return best;
     }
 
+    /// Calls visit(face) for the faces whose boxes may overlap that of a triangle.
+    template <class Visit>
+    void VisitOverlapping(const std::array<Vector, 3> &triangle, const Visit &visit) const
+    {
+        std::array<double, 3> low, high;
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min({triangle[0][k], triangle[1][k], triangle[2][k]});
+            high[k] = std::max({triangle[0][k], triangle[1][k], triangle[2][k]});
+        }
+        const auto overlaps = [&](const auto &lowOf, const auto &highOf) {
+            for (int k = 0; k < 3; ++k)
+                if (highOf(k) < low[k] || lowOf(k) > high[k])
+                    return false;
+            return true;
+        };
+        int stack[64], top = 0;
+        if (!_node.empty())
+            stack[top++] = 0;
+        while (top > 0) {
+            const Node &n = _node[stack[--top]];
+            if (!overlaps([&](int k) { return n.low[k]; }, [&](int k) { return n.high[k]; }))
+                continue;
+            if (n.count == 0) {
+                stack[top++] = static_cast<int>(&n - _node.data()) + 1;
+                stack[top++] = n.first;
+                continue;
+            }
+            for (int i = n.first; i < n.first + n.count; ++i) {
+                const Corners &c = _corner[i];
+                if (overlaps(
+                        [&](int k) {
+                            return std::min({c[0][k], c[1][k], c[2][k]});
+                        },
+                        [&](int k) {
+                            return std::max({c[0][k], c[1][k], c[2][k]});
+                        }))
+                    visit(_face[i]);
+            }
+        }
+    }
+
 private:
     struct Node {
         float low[3], high[3];
@@ -165,6 +207,7 @@ private:
     using Corners = std::array<Vector, 3>;
     std::vector<Node> _node;
     std::vector<Corners> _corner;
+    std::vector<int> _face; // of the soup, for each of those
 
     static double Away(const Node &n, const Vector &p)
     {
