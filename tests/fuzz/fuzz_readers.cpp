@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,9 +10,10 @@
 
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 
-#include "fuzz/bytes.h"
+#include "fuzz/targets.h"
 #include "mesh_io.h"
 
+namespace fuzz {
 namespace {
 
 using ccdm_remesh::Mesh;
@@ -37,14 +37,6 @@ public:
     std::string path;
 };
 
-void Expect(bool holds, const char *what)
-{
-    if (holds)
-        return;
-    std::fprintf(stderr, "broken promise: %s\n", what);
-    std::abort();
-}
-
 // Written and read again, a mesh is the same.
 void GoThereAndBack(Mesh &mesh, const char *extension)
 {
@@ -65,10 +57,10 @@ void GoThereAndBack(Mesh &mesh, const char *extension)
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+void RunReaders(const std::uint8_t *data, std::size_t size)
 {
     if (size == 0)
-        return 0;
+        return;
     constexpr const char *extensions[] = {"ply", "off", "obj", "stl"};
     const char *extension = extensions[data[0] % 4];
     const ScratchFile file(extension);
@@ -77,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     Mesh mesh;
     const ccdm_remesh::ReadResult read = ccdm_remesh::ReadMesh(file.path, mesh);
     if (!read.fault.empty() || mesh.FN() > MostFaces)
-        return 0;
+        return;
     vcg::ccdm::Params params;
     params.vertexCount = 4 + data[0] / 16;
     params.globalIterations = 0;
@@ -87,5 +79,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     Expect(report.status == Status::Done || !report.message.empty(), "a refusal without a reason");
     if (report.status == Status::Done)
         GoThereAndBack(result, extension);
-    return 0;
 }
+
+} // namespace fuzz

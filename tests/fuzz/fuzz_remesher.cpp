@@ -2,21 +2,21 @@
 // Bytes to a small mesh and parameters, remeshed: a proven mesh comes out, or a refusal that says why and leaves the
 // output alone.
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
+#include <vector>
 
 #include <vcg/complex/algorithms/ccdm/selection.h>
 
 #include "fuzz/bytes.h"
 #include "fuzz/mesh_from_bytes.h"
+#include "fuzz/targets.h"
 #include "fuzz/topology.h"
 
+namespace fuzz {
 namespace {
 
 using namespace vcg::ccdm;
 
-Params ParamsFromBytes(fuzz::Bytes &in)
+Params ParamsFromBytes(Bytes &in)
 {
     Params p;
     p.threads = 1;
@@ -47,21 +47,9 @@ Params ParamsFromBytes(fuzz::Bytes &in)
     return p;
 }
 
-[[noreturn]] void Fail(const std::string &why)
-{
-    std::fprintf(stderr, "broken promise: %s\n", why.c_str());
-    std::abort();
-}
-
-void Expect(bool holds, const std::string &what)
-{
-    if (!holds)
-        Fail(what);
-}
-
 void CheckResult(const Report &report, const Params &params, const MeshTables &result)
 {
-    const auto t = fuzz::CountTopology(result.face, static_cast<int>(result.position.size()));
+    const auto t = CountTopology(result.face, static_cast<int>(result.position.size()));
     Expect(t.vertices == static_cast<int>(result.position.size()), "a vertex of the result is in no face");
     for (const Point &p : result.position)
         Expect(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]), "a coordinate is not finite");
@@ -81,11 +69,11 @@ void CheckResult(const Report &report, const Params &params, const MeshTables &r
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
+void RunRemesher(const std::uint8_t *data, std::size_t size)
 {
-    fuzz::Bytes in(data, size);
+    Bytes in(data, size);
     const Params params = ParamsFromBytes(in);
-    MeshTables input = fuzz::MeshFromBytes(in);
+    MeshTables input = MeshFromBytes(in);
     if (params.density == DensityKind::Quality)
         for (std::size_t v = 0; v < input.position.size(); ++v)
             input.field.push_back(in.Empty() ? 1 : in.Below(4) - (in.Next() == 255));
@@ -105,5 +93,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         Expect(report.status != Status::Cancelled, "cancelled by nobody");
         Expect(output.position.size() == 1 && output.face.empty(), "a refusal that changed the output");
     }
-    return 0;
 }
+
+} // namespace fuzz
