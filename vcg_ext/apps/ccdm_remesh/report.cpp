@@ -168,6 +168,7 @@ std::string WriteReport(const Options &options, const RunSummary &run)
     j["accepted"] = e.accepted;
     j["relocations"] = e.relocations;
     j["flips"] = e.flips;
+    j["flips_bounded"] = e.flipsBounded;
     j["seconds"] = Json::object();
     for (const auto &s : e.seconds)
         j["seconds"][s.first] = s.second;

@@ -91,14 +91,19 @@ public:
         for (const Task &t : task) {
             last.queue.insert(last.queue.end(), t.left.begin(), t.left.end());
             flips += t.flips;
+            _bounded = _bounded || t.bounded;
         }
         last.Run(r, Everywhere);
+        _bounded = _bounded || last.bounded;
         _crossing.swap(last.flipped);
         return flips + last.flips;
     }
 
     /// Those flips of the last run that were not inside one patch.
     const std::vector<Flipped> &Crossing() const { return _crossing; }
+
+    /// Whether a run has ended at its bound.
+    bool Bounded() const { return _bounded; }
 
 private:
     struct Entry {
@@ -113,6 +118,7 @@ private:
         std::vector<Entry> queue, left;
         std::vector<Flipped> flipped; // filled for the edges across borders
         long long flips = 0;
+        bool bounded = false;
 
         void Run(Remesh &r, int patch)
         {
@@ -139,6 +145,7 @@ private:
                     for (int e = 0; e < 3; ++e)
                         Enqueue(r, MakeSide(k, e), patch);
             }
+            bounded = !queue.empty();
         }
 
         void Enqueue(const Remesh &r, Side s, int patch)
@@ -160,6 +167,7 @@ private:
     Workers &_workers;
     std::vector<std::vector<Entry>> _found;
     std::vector<Flipped> _crossing;
+    bool _bounded = false;
 
     std::vector<Entry> Find(const Remesh &r)
     {

@@ -280,6 +280,7 @@ struct Report {
     int accepted = 0;           ///< global iterations whose result was kept
     long long relocations = 0;  ///< vertex relocations tried, all sweeps together
     long long flips = 0;        ///< edge flips done by the optimiser
+    bool flipsBounded = false;  ///< flips were ended at their bound: the mesh may not be Delaunay everywhere
     int foldedEdges = 0;        ///< edges of the result whose faces turn by more than 150 degrees
     AngleCertificate angles;
 

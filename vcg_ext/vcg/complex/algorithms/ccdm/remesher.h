@@ -114,7 +114,7 @@ private:
             if (passed) {
                 Offset(model, remesh);
                 CountExtra(model, remesh, params.vertexCount);
-                WarnOfFolds();
+                WarnOfTheResult();
                 return true;
             }
             if (_report.status != Status::CheckFailed)
@@ -192,6 +192,7 @@ private:
         if (!Begin("optimising", 20, 92))
             return false;
         _report.accepted = 0;
+        _report.flipsBounded = false;
         Optimizer optimizer(model, params, remesh, _report, _workers);
         if (!optimizer.Run(finer, [this](double x) { return Advance(x); }))
             return false;
@@ -457,8 +458,11 @@ private:
     }
 
     // Once the mesh to hand out is chosen: an attempt that was thrown away says nothing about it.
-    void WarnOfFolds()
+    void WarnOfTheResult()
     {
+        if (_report.flipsBounded)
+            _report.warnings.push_back(
+                "the flips were ended at 12 for each edge: the mesh may not be Delaunay everywhere");
         if (_report.foldedEdges > 0)
             _report.warnings.push_back(
                 std::to_string(_report.foldedEdges) +
