@@ -15,8 +15,8 @@ namespace filter_ccdm {
 
 namespace {
 
-// Vertex normals are the user's own when more than one in a hundred differs by more than this from the one that
-// the faces give; MeshLab has normals in every layer and does not say where they come from.
+// Vertex normals are the user's own when more than one in a hundred differs by more than this from what the faces
+// give; MeshLab has normals in every layer and does not say where they come from.
 constexpr double OwnNormalDegrees = 5;
 
 using Normals = std::vector<vcg::Point3d>;
@@ -133,7 +133,8 @@ void AttributeCarrier::MarkFeatures(Mesh &input, vcg::ccdm::Params &params)
         for (Face &f : input.face)
             for (int k = 0; k < 3; ++k)
                 f.ClearFaceEdgeS(k);
-    if (_texture.SeamCount() == 0)
+    const int seams = _texture.SeamCount(_input, _partial);
+    if (seams == 0)
         return;
     // Every vertex where seams meet has to stay. Charts of a triangle each, for example, would keep all of the old
     // mesh; then the texture coordinates have to go.
@@ -148,7 +149,7 @@ void AttributeCarrier::MarkFeatures(Mesh &input, vcg::ccdm::Params &params)
     }
     _texture.MarkSeams(input);
     params.useMarkedEdges = true;
-    _notes << QString("%1 seam edges of the texture coordinates were kept as features").arg(_texture.SeamCount());
+    _notes << QString("%1 seam edges of the texture coordinates were kept as features").arg(seams);
 }
 
 bool AttributeCarrier::Any() const

@@ -104,8 +104,6 @@ vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::P
     if (params.maxError)
         own.maxError = std::min(1.0, *params.maxError * scale);
     vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, own, progress, provenance);
-    if (report.status != vcg::ccdm::Status::Done)
-        throw Failure(report.message);
     if (params.maxError) {
         report.asked /= scale;
         report.reached /= scale;
@@ -114,3 +112,12 @@ vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::P
 }
 
 } // namespace filter_ccdm
+    if (report.status == vcg::ccdm::Status::NotReached)
+        throw Failure(QString("an error of %1 % of the diagonal was not reached in %2 run(s); the closest came within "
+                              "%3 %")
+                          .arg(100 * *params.maxError)
+                          .arg(report.runs)
+                          .arg(100 * report.reached, 0, 'g', 3)
+                          .toStdString());
+    if (report.status != vcg::ccdm::Status::Done)
+        throw Failure(report.message);

@@ -64,12 +64,12 @@ def test_shipped_script_runs(tmp_path, name):
     run = run_server(f"{SAMPLES}/cad_part.ply", os.path.join(SCRIPTS, name), out)
     assert run.returncode == 0, run.stdout[-2000:]
     if name == "ccdm_max_error.mlx":
-        asked, reached = map(float, re.search(r"largest error / diagonal: asked (\S+), reached (\S+) in",
+        asked, reached = map(float, re.search(r"largest error \(% of the diagonal\): asked (\S+), reached (\S+) in",
                                               run.stdout).groups())
-        assert asked == 0.005 and reached <= asked
+        assert asked == 0.5 and reached <= asked
     elif name == "ccdm_selected_faces.mlx":
         assert "topology of the remeshed part preserved" in run.stdout
-        assert "mean edge length: asked" in run.stdout and "(not met)" not in run.stdout
+        assert "mean edge length (% of the diagonal): asked 1.5, " in run.stdout and "(not met)" not in run.stdout
         return
     else:
         assert plyfile.count_ply(out)[0] == 5000
@@ -164,8 +164,9 @@ def test_minus_one_is_what_the_optimizer_has(tmp_path, optimizer, plan):
 def test_edge_length_in_percent_of_the_diagonal(tmp_path):
     run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, edge_length=5, global_iterations=4), tmp_path / "o.ply")
     assert run.returncode == 0
-    asked, reached = map(float, re.search(r"mean edge length: asked (\S+), reached (\S+) in", run.stdout).groups())
-    assert abs(reached / asked - 1) < 0.021
+    asked, reached = map(float, re.search(r"mean edge length \(% of the diagonal\): asked (\S+), reached (\S+) in",
+                                          run.stdout).groups())
+    assert asked == 5 and abs(reached / asked - 1) < 0.021
 
 
 def test_log_before_and_after(tmp_path):
