@@ -232,6 +232,8 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     // The layer may be gone by now, and another in its memory.
     if (document.getMesh(id) != source)
         throw Failure("the layer was deleted while the filter was running");
+    if (!settings.newLayer && !filter_ccdm::IsAsCopied(source->cm, input))
+        throw Failure("the layer was changed while the filter was running");
     filter_ccdm::Outputs outputs = filter_ccdm::OutputsOf(run);
     outputs["kept_faces"] = provenance.keptFaces;
     QStringList lines, notes;
