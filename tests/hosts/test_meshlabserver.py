@@ -115,13 +115,14 @@ def test_density_curvature_and_in_place_or_new_layer(tmp_path):
 @pytest.mark.parametrize("changes, reason", [
     ({"vertex_count": 0}, "vertex_count must lie between 4"), ({"vertex_count": 3}, "vertex_count must lie between 4"),
     ({"feature_angle": 0}, "feature_angle must lie"), ({"lambda": 7}, "lambda must lie"),
-    ({"global_iterations": -2}, "global_iterations must lie"), ({"local_iterations": 0}, "local_iterations must lie"),
+    ({"global_iterations": -2}, "global_iterations must lie between 0 and 1000000, or be -1, not -2"),
+    ({"local_iterations": 0}, "local_iterations must lie"),
     ({"density": 2}, "no vertex quality"), ({"seed": -4}, "seed must lie"), ({"edge_length": -1}, "edge_length must lie"),
     ({"max_error": 200}, "max_error must lie"), ({"edge_length": 1, "max_error": 1}, "only one of them"),
     ({"selected_edges": 3}, "selected_edges must lie"), ({"boundary": 3}, "boundary must lie"),
     ({"selected_faces_only": "true"}, "no face is selected"), ({"optimizer": -1}, "optimizer must lie"),
     ({"approximation": 2}, "approximation must lie"), ({"min_angle": 50}, "min_angle must lie"),
-    ({"min_angle": -2}, "min_angle must lie")])
+    ({"min_angle": -2}, "min_angle must lie between 0 and 45, or be -1, not -2")])
 def test_wrong_value_is_refused_with_the_reason(tmp_path, changes, reason):
     out = tmp_path / "o.ply"
     run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, **changes), out)
