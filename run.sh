@@ -153,8 +153,8 @@ check_style() {
     cmake --build build --target ccdm_vcg_ext_verify_interface_header_sets >build/headers.log 2>&1 ||
         { grep -E 'error' build/headers.log; fail "a header does not compile by itself"; }
     say "clang-tidy"
-    /usr/bin/python3 tests/style/tidy.py build parts_tests remesher_tests ccdm_remesh ccdm_mesh_io make_sample_meshes \
-        >build/clang-tidy.log 2>&1 ||
+    /usr/bin/python3 tests/style/tidy.py build parts_tests remesher_tests filter_ccdm_objects_2020.09 ccdm_remesh \
+        ccdm_mesh_io make_sample_meshes >build/clang-tidy.log 2>&1 ||
         { grep -E 'error|warning' build/clang-tidy.log | sort -u | head -40; fail "clang-tidy found something"; }
 }
 

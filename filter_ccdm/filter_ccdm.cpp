@@ -284,4 +284,5 @@ void FilterCcdmPlugin::Say(const char *beginning, const QString &line, Level lev
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterCcdmPlugin)
 
-#include "moc_filter_ccdm.cpp" // here, it needs no translation unit of its own
+// Here, it needs no translation unit of its own.
+#include "moc_filter_ccdm.cpp" // NOLINT(bugprone-suspicious-include)
