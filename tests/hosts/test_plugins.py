@@ -9,7 +9,7 @@ import xml.etree.ElementTree as tree
 import pytest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
-from filter_parameters import declared, page_rows  # noqa: E402
+from filter_parameters import declared, page_rows, readme_names  # noqa: E402
 
 PLUGINS = os.environ["CCDM_PLUGINS"]
 SCRIPTS = os.environ["CCDM_SCRIPTS"]
@@ -65,6 +65,10 @@ def test_page_maps_every_parameter():
 
 @pytest.mark.parametrize("name", sorted(n for n in os.listdir(SCRIPTS) if n.endswith(".mlx")))
 def test_page_and_scripts_agree(name):
+def test_readme_names_every_parameter():
+    assert sorted(readme_names()) == sorted(name for _, name, _, _ in declared())
+
+
     element = tree.parse(os.path.join(SCRIPTS, name)).getroot().findall("filter")[-1] # others may prepare
     rows = page_rows()
     assert [(p.get("name"), p.get("type")) for p in element] == [(row[1].strip("`"), row[3]) for row in rows]
