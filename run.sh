@@ -167,6 +167,7 @@ run_tests() {
         python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     else
         variants="2020.09:float;2025.07:double"
+        rm -rf build/plugins/2022.02 # which would pass for one of this build
     fi
     build
     check_style
