@@ -88,6 +88,23 @@ def test_a_file_of_somebody_else_is_left_alone(batch):
     assert "was not made by ccdm-batch" in batch(expect=3).stderr
     assert (batch.output / "a.ply").read_text() == "precious"
 
+    (batch.output / "a.ply").unlink()
+    (batch.output / "a.ply.json").write_text('{"precious": true}')
+    run = batch(expect=3)
+    assert "a.ply.json' is there already and was not made by ccdm-batch" in run.stderr
+    assert batch.rows()["a.ply"]["kind"] == "name" and batch.files() == ["a.ply.json"]
+    assert (batch.output / "a.ply.json").read_text() == '{"precious": true}'
+
+
+def test_annealing_has_random_samples(batch):
+    """As the filter has them."""
+    plyfile.write_ply(batch.inputs / "a.ply", *BUMPY)
+    batch("--set", "optimizer=annealing")
+    parameters = json.loads((batch.output / "a.ply.json").read_text())["report"]["parameters"]
+    assert (parameters["optimizer"], parameters["sampler"]) == ("annealing", "random")
+    batch("--set", "optimizer=annealing", "--set", "sampler=front")
+    parameters = json.loads((batch.output / "a.ply.json").read_text())["report"]["parameters"]
+    assert (parameters["optimizer"], parameters["sampler"]) == ("annealing", "front")
 
 @pytest.mark.parametrize(
     "options, message",
