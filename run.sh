@@ -153,8 +153,8 @@ check_style() {
     cmake --build build --target ccdm_vcg_ext_verify_interface_header_sets >build/headers.log 2>&1 ||
         { grep -E 'error' build/headers.log; fail "a header does not compile by itself"; }
     say "clang-tidy"
-    /usr/bin/python3 tests/style/tidy.py build parts_tests remesher_tests ccdm_remesh ccdm_mesh_io make_sample_meshes \
-        >build/clang-tidy.log 2>&1 ||
+    /usr/bin/python3 tests/style/tidy.py build parts_tests remesher_tests filter_ccdm_objects_2020.09 ccdm_remesh \
+        ccdm_mesh_io make_sample_meshes >build/clang-tidy.log 2>&1 ||
         { grep -E 'error|warning' build/clang-tidy.log | sort -u | head -40; fail "clang-tidy found something"; }
 }
 
@@ -167,6 +167,7 @@ run_tests() {
         python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     else
         variants="2020.09:float;2025.07:double"
+        rm -rf build/plugins/2022.02 # which would pass for one of this build
     fi
     build
     check_style

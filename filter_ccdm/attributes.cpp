@@ -15,19 +15,43 @@ namespace filter_ccdm {
 
 namespace {
 
-// Vertex normals are the user's own when more than one in a hundred differs by more than this from the one that
-// the faces give; MeshLab has normals in every layer and does not say where they come from.
+// Vertex normals are the user's own when more than one in a hundred differs by more than this from what the faces
+// give; MeshLab has normals in every layer and does not say where they come from.
 constexpr double OwnNormalDegrees = 5;
 
-bool AreOwn(const std::vector<vcg::Point3d> &normals, const std::vector<vcg::Point3d> &computed)
+using Normals = std::vector<vcg::Point3d>;
+
+// The vertex normals that the hosts compute, of any length. In most cases they weight the faces' with the angles, for
+// a mesh of arrays with the areas; for a file with polygons they add up those that the faces have, which are then the
+// polygons'.
+std::array<Normals, 3> ComputedNormals(const Mesh &input, const Normals &ofFaces)
+{
+    const Normals null(input.vert.size(), vcg::Point3d(0, 0, 0));
+    std::array<Normals, 3> computed = {VertexNormals(input), null, null};
+    for (std::size_t i = 0; i < input.face.size(); ++i) {
+        const Face &f = input.face[i];
+        const vcg::Point3d across = (f.cP(1) - f.cP(0)) ^ (f.cP(2) - f.cP(0));
+        for (int k = 0; k < 3; ++k) {
+            const auto v = static_cast<std::size_t>(input.IndexOf(f, k));
+            computed[1][v] += across;
+            computed[2][v] += ofFaces[i];
+        }
+    }
+    return computed;
+}
+
+bool AreOwn(const Normals &normals, const std::array<Normals, 3> &computed)
 {
     const double limit = std::cos(OwnNormalDegrees * std::acos(-1.0) / 180);
     std::size_t different = 0;
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        const double length = normals[i].Norm();
+        const vcg::Point3d &n = normals[i];
         // Unused vertices, and the null normals of a mesh whose normals were never computed.
-        if (length > 0 && computed[i].SquaredNorm() > 0)
-            different += normals[i] * computed[i] < limit * length;
+        if (n.SquaredNorm() > 0 && computed[0][i].SquaredNorm() > 0)
+            different += std::none_of(computed.begin(), computed.end(), [&](const Normals &way) {
+                const double length = way[i].Norm() * n.Norm();
+                return length > 0 && n * way[i] >= limit * length;
+            });
     }
     return 100 * different > normals.size();
 }
@@ -68,7 +92,7 @@ AttributeCarrier::AttributeCarrier(const MeshModel &layer, const Mesh &input, co
     if (layer.hasDataMask(MeshModel::MM_WEDGTEXCOORD) && layer.cm.face.IsWedgeTexCoordEnabled())
         _texture = WedgeTexture(layer.cm, input);
     ReadElements(layer.cm);
-    if (AreOwn(_vertexNormals, VertexNormals(input)))
+    if (AreOwn(_vertexNormals, ComputedNormals(input, _faceNormals)))
         _columns.ofVertices.push_back(NormalColumn(_vertexNormals));
     NameTheRest(layer);
 }
@@ -83,8 +107,7 @@ void AttributeCarrier::ReadElements(const CMeshO &layer)
     for (const CFaceO &f : layer.face)
         if (!f.IsD()) {
             _faceFlags.push_back(f.cFlags());
-            if (_partial)
-                _faceNormals.push_back(vcg::Point3d::Construct(f.cN()));
+            _faceNormals.push_back(vcg::Point3d::Construct(f.cN()));
         }
 }
 
@@ -110,7 +133,8 @@ void AttributeCarrier::MarkFeatures(Mesh &input, vcg::ccdm::Params &params)
         for (Face &f : input.face)
             for (int k = 0; k < 3; ++k)
                 f.ClearFaceEdgeS(k);
-    if (_texture.SeamCount() == 0)
+    const int seams = _texture.SeamCount(_input, _partial);
+    if (seams == 0)
         return;
     // Every vertex where seams meet has to stay. Charts of a triangle each, for example, would keep all of the old
     // mesh; then the texture coordinates have to go.
@@ -125,7 +149,7 @@ void AttributeCarrier::MarkFeatures(Mesh &input, vcg::ccdm::Params &params)
     }
     _texture.MarkSeams(input);
     params.useMarkedEdges = true;
-    _notes << QString("%1 seam edges of the texture coordinates were kept as features").arg(_texture.SeamCount());
+    _notes << QString("%1 seam edges of the texture coordinates were kept as features").arg(seams);
 }
 
 bool AttributeCarrier::Any() const

@@ -121,8 +121,13 @@ bool FilterCcdmPlugin::applyFilter(QAction *, MeshDocument &document, const Rich
 {
     const Outcome outcome = Attempt(document, parameters, progress);
     // The box reads the message as HTML; meshlabserver shows the log only.
-    if (!outcome.done)
-        errorMessage = outcome.cause.toHtmlEscaped();
+    if (!outcome.done) {
+        try {
+            errorMessage = outcome.cause.toHtmlEscaped();
+        } catch (const std::bad_alloc &) {
+            errorMessage = outcome.cause;
+        }
+    }
     return outcome.done;
 }
 
@@ -159,7 +164,9 @@ std::map<std::string, QVariant> FilterCcdmPlugin::applyFilter(const QAction *, c
 {
     Outcome outcome = Attempt(document, parameters, progress);
     if (!outcome.done) {
-        setLog(nullptr); // PyMeshLab forgets to, and the document may be gone at the next run
+        const std::lock_guard<std::mutex> lock(_running.mutex);
+        if (_running.ids.empty())
+            setLog(nullptr); // PyMeshLab forgets to, and the document may be gone at the next run
         throw MLException(outcome.cause);
     }
     return std::move(outcome.outputs);
@@ -172,19 +179,22 @@ FilterCcdmPlugin::Outcome FilterCcdmPlugin::Attempt(MeshDocument &document, cons
 {
     Outcome outcome;
     try {
-        const RunGuard guard(_running);
-        outcome.outputs = Remesh(document, parameters, progress);
-        outcome.done = true;
-        return outcome;
-    } catch (const std::bad_alloc &) {
-        outcome.cause = "there is not enough memory";
-    } catch (const std::exception &e) {
-        outcome.cause = QString::fromUtf8(e.what());
+        try {
+            const RunGuard guard(_running);
+            outcome.outputs = Remesh(document, parameters, progress);
+            outcome.done = true;
+        } catch (const std::bad_alloc &) {
+            throw;
+        } catch (const std::exception &e) {
+            outcome.cause = QString("CCDM remeshing was not done: ") + QString::fromUtf8(e.what());
+        }
+    } catch (const std::bad_alloc &) { // these literals need none
+        outcome.cause = QStringLiteral("CCDM remeshing was not done: there is not enough memory");
     } catch (...) {
-        outcome.cause = "unknown error";
+        outcome.cause = QStringLiteral("CCDM remeshing was not done: unknown error");
     }
-    outcome.cause.prepend("CCDM remeshing was not done: ");
-    Say(outcome.cause, Level::Warning);
+    if (!outcome.done)
+        Say("", outcome.cause, Level::Warning);
     return outcome;
 }
 
@@ -206,10 +216,9 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     filter_ccdm::CopyFromLayer(source->cm, input);
     if (settings.edgeLengthPercent)
         settings.engine.edgeLength = *settings.edgeLengthPercent / 100 * filter_ccdm::Diagonal(input);
-    for (const QString &line : filter_ccdm::DescribePlan(input, settings))
-        Say("CCDM: " + line);
+    Say(filter_ccdm::DescribePlan(input, settings));
     if (settings.engine.useMarkedEdges && filter_ccdm::SelectedEdgeCount(input) == 0)
-        Say("CCDM: note: no face edge is selected", Level::Warning);
+        Say(QStringList("note: no face edge is selected"), Level::Warning);
     filter_ccdm::AttributeCarrier carrier(*source, input, settings);
     carrier.MarkFeatures(input, settings.engine);
 
@@ -223,12 +232,20 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     // The layer may be gone by now, and another in its memory.
     if (document.getMesh(id) != source)
         throw Failure("the layer was deleted while the filter was running");
+    if (!settings.newLayer && !filter_ccdm::IsAsCopied(source->cm, input))
+        throw Failure("the layer was changed while the filter was running");
+    filter_ccdm::Outputs outputs = filter_ccdm::OutputsOf(run);
+    outputs["kept_faces"] = provenance.keptFaces;
+    QStringList lines, notes;
+    for (const std::string &warning : run.report.warnings)
+        notes << "note: " + QString::fromStdString(warning);
     MeshModel *target = source;
     if (settings.newLayer)
         target = document.addNewMesh("", NewLayerName(source->label()), false);
     try {
         filter_ccdm::LayerContent content(result, *target);
         carrier.Carry(provenance, result, content);
+        lines = carrier.Describe() + filter_ccdm::DescribeRun(run);
         content.Commit();
         if (settings.newLayer)
             filter_ccdm::CopySettings(*source, *target);
@@ -239,28 +256,33 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     }
     if (settings.newLayer)
         document.setCurrentMesh(target->id());
-    for (const QString &line : carrier.Describe())
-        Say("CCDM: " + line);
-    for (const QString &line : filter_ccdm::DescribeRun(run))
-        Say("CCDM: " + line);
-    for (const std::string &warning : run.report.warnings)
-        Say("CCDM: note: " + QString::fromStdString(warning), Level::Warning);
-    filter_ccdm::Outputs outputs = filter_ccdm::OutputsOf(run);
-    outputs["kept_faces"] = provenance.keptFaces;
+    // The layer is there now: nothing below may fail.
+    Say(lines);
+    Say(notes, Level::Warning);
     return outputs;
 }
 
-void FilterCcdmPlugin::Say(const QString &line, Level level)
+void FilterCcdmPlugin::Say(const QStringList &lines, Level level) noexcept
 {
-    const QByteArray text = line.toUtf8();
+    for (const QString &line : lines)
+        Say("CCDM: ", line, level);
+}
+
+void FilterCcdmPlugin::Say(const char *beginning, const QString &line, Level level) noexcept
+{
     const GLLogStream::Levels mark = level == Level::Warning ? GLLogStream::WARNING : GLLogStream::FILTER;
+    try {
+        const QByteArray text = beginning + line.toUtf8();
 #if CCDM_HOST_API == 2020
-    Log(mark, text.constData());
+        Log(mark, text.constData());
 #else
-    log(mark, text.constData());
+        log(mark, text.constData());
 #endif
+    } catch (...) { // a line less in the log
+    }
 }
 
 MESHLAB_PLUGIN_NAME_EXPORTER(FilterCcdmPlugin)
 
-#include "moc_filter_ccdm.cpp" // here, it needs no translation unit of its own
+// Here, it needs no translation unit of its own.
+#include "moc_filter_ccdm.cpp" // NOLINT(bugprone-suspicious-include)

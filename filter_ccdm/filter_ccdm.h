@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <QObject>
+#include <QStringList>
 
 #include "host_api.h"
 #include "run_report.h"
@@ -75,7 +76,9 @@ private:
     filter_ccdm::Outputs Remesh(MeshDocument &document, const RichParameterList &parameters,
                                 vcg::CallBackPos *progress);
 
-    void Say(const QString &line, Level level = Level::Plain);
+    /// Into the log, if there is memory for it.
+    void Say(const QStringList &lines, Level level = Level::Plain) noexcept;
+    void Say(const char *beginning, const QString &line, Level level) noexcept;
 };
 
 #endif

@@ -25,15 +25,6 @@
 
 namespace filter_ccdm {
 
-inline void UpdateBoxAndNormals(MeshModel &layer)
-{
-#if CCDM_HOST_API == 2020
-    layer.UpdateBoxAndNormals();
-#else
-    layer.updateBoxAndNormals();
-#endif
-}
-
 inline void DeleteLayer(MeshDocument &document, MeshModel &layer)
 {
 #if CCDM_HOST_API == 2020

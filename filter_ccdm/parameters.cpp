@@ -22,36 +22,38 @@ QString Tip(const char *text)
     return QString("<p>%1</p>").arg(text);
 }
 
-QString OutOfRange(const char *name, double low, double high, double x)
+constexpr const char *OrAuto = ", or be -1";
+
+// The number, if it is in its range. The host hands over numbers unchecked, and bad text as 0.
+template <class T>
+T Checked(const char *name, T low, T high, T x, const char *orElse)
 {
-    return QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x);
+    if (!(x >= low && x <= high)) // nor is what is not a number
+        throw Failure(QString("%1 must lie between %2 and %3%4, not %5")
+                          .arg(name)
+                          .arg(low)
+                          .arg(high)
+                          .arg(orElse)
+                          .arg(x)
+                          .toStdString());
+    return x;
 }
 
-// The host hands over numbers unchecked, and bad text as 0.
-double Real(const RichParameterList &list, const char *name, double low, double high)
+double Real(const RichParameterList &list, const char *name, double low, double high, const char *orElse = "")
 {
     // The host keeps single precision; what was typed is the short decimal.
     const double x = QString::number(static_cast<double>(list.getFloat(name))).toDouble();
-    if (!(x >= low && x <= high))
-        throw Failure(OutOfRange(name, low, high, x).toStdString());
-    return x;
+    return Checked(name, low, high, x, orElse);
 }
 
-int Whole(const RichParameterList &list, const char *name, int low, int high)
+int Whole(const RichParameterList &list, const char *name, int low, int high, const char *orElse = "")
 {
-    const int x = list.getInt(name);
-    if (x < low || x > high)
-        throw Failure(
-            QString("%1 must lie between %2 and %3, not %4").arg(name).arg(low).arg(high).arg(x).toStdString());
-    return x;
+    return Checked(name, low, high, list.getInt(name), orElse);
 }
 
 int Choice(const RichParameterList &list, const char *name, int count)
 {
-    const int x = list.getEnum(name);
-    if (x < 0 || x >= count)
-        throw Failure(OutOfRange(name, 0, count - 1, x).toStdString());
-    return x;
+    return Checked(name, 0, count - 1, list.getEnum(name), "");
 }
 
 } // namespace
@@ -152,11 +154,11 @@ Settings ReadParameters(const RichParameterList &list)
         p.sampler = vcg::ccdm::SamplerKind::Random;
     }
     if (list.getInt("global_iterations") != Auto)
-        p.globalIterations = Whole(list, "global_iterations", 0, 1000000);
+        p.globalIterations = Whole(list, "global_iterations", 0, 1000000, OrAuto);
     p.localIterations = Whole(list, "local_iterations", 1, 1000000);
     p.lambda = Real(list, "lambda", 0, 1);
     if (list.getFloat("min_angle") != Auto)
-        p.minAngle = Real(list, "min_angle", 0, 45);
+        p.minAngle = Real(list, "min_angle", 0, 45, OrAuto);
     p.approximation = Real(list, "approximation", 0, 1);
     p.seed = static_cast<std::uint32_t>(Whole(list, "seed", 0, 2147483647));
     return s;

@@ -39,6 +39,21 @@ void CopyFromLayer(const CMeshO &layer, Mesh &mesh)
     }
 }
 
+bool IsAsCopied(const CMeshO &layer, const Mesh &copy)
+{
+    Mesh now;
+    CopyFromLayer(layer, now);
+    const auto samePlace = [](const Vertex &a, const Vertex &b) { return a.cP() == b.cP(); };
+    const auto sameFace = [&](const Face &a, const Face &b) {
+        bool same = a.IsS() == b.IsS();
+        for (int k = 0; k < 3; ++k)
+            same = same && now.IndexOf(a, k) == copy.IndexOf(b, k);
+        return same;
+    };
+    return std::equal(now.vert.begin(), now.vert.end(), copy.vert.begin(), copy.vert.end(), samePlace) &&
+           std::equal(now.face.begin(), now.face.end(), copy.face.begin(), copy.face.end(), sameFace);
+}
+
 std::vector<vcg::Point3d> VertexNormals(const Mesh &mesh)
 {
     std::vector<vcg::Point3d> normal(mesh.vert.size(), vcg::Point3d(0, 0, 0));
@@ -104,12 +119,19 @@ vcg::ccdm::Report RemeshCopy(const Mesh &input, Mesh &result, const vcg::ccdm::P
     if (params.maxError)
         own.maxError = std::min(1.0, *params.maxError * scale);
     vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(input, result, own, progress, provenance);
-    if (report.status != vcg::ccdm::Status::Done)
-        throw Failure(report.message);
     if (params.maxError) {
         report.asked /= scale;
         report.reached /= scale;
     }
+    if (report.status == vcg::ccdm::Status::NotReached)
+        throw Failure(QString("an error of %1 % of the diagonal was not reached in %2 run(s); the closest came within "
+                              "%3 %")
+                          .arg(100 * *params.maxError)
+                          .arg(report.runs)
+                          .arg(100 * report.reached, 0, 'g', 3)
+                          .toStdString());
+    if (report.status != vcg::ccdm::Status::Done)
+        throw Failure(report.message);
     return report;
 }
 

@@ -34,6 +34,9 @@ public:
 /// Copies the live elements of a layer: positions, vertex quality, selected faces and selected face edges.
 void CopyFromLayer(const CMeshO &layer, Mesh &mesh);
 
+/// Whether a layer still has the positions, the faces and the selected faces of a copy that was made of it.
+bool IsAsCopied(const CMeshO &layer, const Mesh &copy);
+
 /// Unit normals of the vertices, the faces around each weighted with their angles there; null where there is none.
 std::vector<vcg::Point3d> VertexNormals(const Mesh &mesh);
 

@@ -12,8 +12,8 @@ using Quality = vcg::tri::MeshQuality<filter_ccdm::Mesh>;
 namespace filter_ccdm {
 
 Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
-    : report(std::move(r)), seconds(time), before(Quality::Measure(input)), after(Quality::Measure(result)),
-      distance(Quality::Distance(input, result))
+    : report(std::move(r)), seconds(time), diagonal(Diagonal(input)), before(Quality::Measure(input)),
+      after(Quality::Measure(result)), distance(Quality::Distance(input, result))
 {
 }
 
@@ -67,7 +67,7 @@ QStringList DescribeRun(const Measured &run)
         line(name, QString::number(a, 'f', digits), QString::number(b, 'f', digits));
     };
     line("", "before", "after");
-    row("vertices", before.vertices - before.unreferenced, after.vertices, 0);
+    row("vertices", before.vertices - before.unreferenced, after.vertices - after.unreferenced, 0);
     row("faces", before.faces, after.faces, 0);
     row("Euler characteristic", before.euler, after.euler, 0);
     row("boundary loops", before.boundaryLoops, after.boundaryLoops, 0);
@@ -85,14 +85,16 @@ QStringList DescribeRun(const Measured &run)
                  .arg(report.resultTopology.euler)
                  .arg(report.resultTopology.boundaryLoops)
                  .arg(report.resultTopology.orientable ? "orientable" : "not orientable");
-    if (report.target != vcg::ccdm::TargetKind::Vertices)
-        lines << QString("%1: asked %2, reached %3%4 in %5 run(s)")
-                     .arg(report.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length"
-                                                                             : "largest error / diagonal")
-                     .arg(report.asked)
-                     .arg(report.reached)
+    if (report.target != vcg::ccdm::TargetKind::Vertices) {
+        const bool length = report.target == vcg::ccdm::TargetKind::EdgeLength;
+        const double percent = 100 / (length ? run.diagonal : 1);
+        lines << QString("%1 (% of the diagonal): asked %2, reached %3%4 in %5 run(s)")
+                     .arg(length ? "mean edge length" : "largest error")
+                     .arg(percent * report.asked)
+                     .arg(percent * report.reached)
                      .arg(vcg::ccdm::TargetSearch::Met(report) ? "" : " (not met)")
                      .arg(report.runs);
+    }
     lines << QString("%1 feature curves, %2 corners; %3 of %4 global iterations accepted; %5 s")
                  .arg(report.featureCurves)
                  .arg(report.featureCorners)

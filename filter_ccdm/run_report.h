@@ -24,6 +24,7 @@ struct Measured {
 
     vcg::ccdm::Report report;
     double seconds;
+    double diagonal; ///< of the input
     vcg::tri::MeshQualityReport before, after;
     vcg::tri::SurfaceDistance distance;
 };

@@ -78,13 +78,27 @@ void WedgeTexture::FindCharts(const Mesh &input)
         _chart[f] = charts.SetOf(static_cast<int>(f));
 }
 
+bool WedgeTexture::IsRemeshed(const std::array<EdgeSide, 2> &sides, const Mesh &input, bool selectedOnly)
+{
+    return !selectedOnly || std::all_of(sides.begin(), sides.end(), [&](const EdgeSide &s) {
+        return input.face[static_cast<std::size_t>(s.face)].IsS();
+    });
+}
+
+int WedgeTexture::SeamCount(const Mesh &input, bool selectedOnly) const
+{
+    return static_cast<int>(std::count_if(_seam.begin(), _seam.end(), [&](const std::array<EdgeSide, 2> &sides) {
+        return IsRemeshed(sides, input, selectedOnly);
+    }));
+}
+
 int WedgeTexture::SeamCorners(const Mesh &input, bool selectedOnly) const
 {
     std::vector<int> degree(input.vert.size(), 0);
     for (const auto &sides : _seam) {
-        const Face &f = input.face[static_cast<std::size_t>(sides[0].face)];
-        if (selectedOnly && !(f.IsS() && input.face[static_cast<std::size_t>(sides[1].face)].IsS()))
+        if (!IsRemeshed(sides, input, selectedOnly))
             continue;
+        const Face &f = input.face[static_cast<std::size_t>(sides[0].face)];
         for (const int k : {sides[0].edge, (sides[0].edge + 1) % 3})
             ++degree[static_cast<std::size_t>(input.IndexOf(f, k))];
     }

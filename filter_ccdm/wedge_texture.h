@@ -19,10 +19,10 @@ public:
 
     bool Empty() const { return _wedges.empty(); }
 
-    /// Number of edges where the coordinates or the textures of the two faces differ.
-    int SeamCount() const { return static_cast<int>(_seam.size()); }
+    /// Number of edges between faces that are remeshed where the coordinates or the textures of the two differ.
+    int SeamCount(const Mesh &input, bool selectedOnly) const;
 
-    /// Number of vertices where seams end, branch or meet, on the faces that are remeshed: all of them must stay.
+    /// Number of vertices where such seams end, branch or meet: all of them must stay.
     int SeamCorners(const Mesh &input, bool selectedOnly) const;
 
     /// Selects the seam edges.
@@ -47,6 +47,7 @@ private:
     std::vector<int> _chart; // of each face
 
     void FindCharts(const Mesh &input);
+    static bool IsRemeshed(const std::array<EdgeSide, 2> &sides, const Mesh &input, bool selectedOnly);
     Coordinates At(const vcg::ccdm::SurfacePoint &p) const;
     Coordinates Continued(int face, const Mesh &input, const vcg::Point3d &p) const;
 };

@@ -2,6 +2,7 @@
 """Good and bad meshes, the summary, the ways to name inputs."""
 
 import json
+import math
 import os
 
 import plyfile
@@ -87,6 +88,23 @@ def test_a_file_of_somebody_else_is_left_alone(batch):
     (batch.output / "a.ply").write_text("precious")
     assert "was not made by ccdm-batch" in batch(expect=3).stderr
     assert (batch.output / "a.ply").read_text() == "precious"
+    (batch.output / "a.ply").unlink()
+    (batch.output / "a.ply.json").write_text('{"precious": true}')
+    run = batch(expect=3)
+    assert "a.ply.json' is there already and was not made by ccdm-batch" in run.stderr
+    assert batch.rows()["a.ply"]["kind"] == "name" and batch.files() == ["a.ply.json"]
+    assert (batch.output / "a.ply.json").read_text() == '{"precious": true}'
+
+
+def test_annealing_has_random_samples(batch):
+    """As the filter has them."""
+    plyfile.write_ply(batch.inputs / "a.ply", *BUMPY)
+    batch("--set", "optimizer=annealing")
+    parameters = json.loads((batch.output / "a.ply.json").read_text())["report"]["parameters"]
+    assert (parameters["optimizer"], parameters["sampler"]) == ("annealing", "random")
+    batch("--set", "optimizer=annealing", "--set", "sampler=front")
+    parameters = json.loads((batch.output / "a.ply.json").read_text())["report"]["parameters"]
+    assert (parameters["optimizer"], parameters["sampler"]) == ("annealing", "front")
 
 
 @pytest.mark.parametrize(
@@ -97,6 +115,7 @@ def test_a_file_of_somebody_else_is_left_alone(batch):
         (["--set", "lamda"], "NAME=VALUE"),
         (["--set", "lamda=0.1"], "has no parameter 'lamda'"),
         (["--set", "seed=1"], "use --seed"),
+        (["--set", "max_error=1"], "the target is a number of vertices here"),
         (["--program", "/no/program"], "cannot be started"),
         (["--workers", "2"], "does not go with"),
         (["--engine", "pymeshlab"], "--plugin"),
@@ -147,7 +166,10 @@ def test_pymeshlab(batch):
         options = ["--plugin", PLUGIN, "--format", suffix, "--quiet"]
         batch(*options, source=batch.inputs / "sheet.ply", program=None)
         assert batch.rows()[f"sheet.{suffix}"]["vertices"] == "200"
-    assert "\nvn " not in (batch.output / "sheet.obj").read_text()
+    lines = (batch.output / "sheet.obj").read_text().splitlines()
+    normals = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("vn ")]
+    assert len(normals) == 200
+    assert all(math.hypot(*normal) == pytest.approx(1, abs=1e-4) for normal in normals)
     batch("--plugin", PLUGIN, "--set", "optimizer=best", program=None, expect=3)
     assert (batch.rows()["sheet.ply"]["kind"], batch.rows()["book.off"]["kind"]) == ("usage", "usage")
     assert (

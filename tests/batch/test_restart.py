@@ -51,6 +51,16 @@ def test_restart_skips_the_finished_and_redoes_the_changed(batch):
     batch("--verify")
     assert statuses(batch) == {"a.ply": "done", "b.ply": "kept", "c.ply": "kept", "d.ply": "kept"}
 
+    # Without --verify an output that was changed is somebody's work.
+    edited = (batch.output / "a.ply").read_bytes() + b"precious"
+    (batch.output / "a.ply").write_bytes(edited)
+    for options in ((), ("--seed", 2)):
+        assert "a.ply' was changed after it was made" in batch(*options, expect=3).stderr
+        assert statuses(batch)["a.ply"] == "failed" and batch.rows()["a.ply"]["kind"] == "name"
+        assert (batch.output / "a.ply").read_bytes() == edited
+    (batch.output / "a.ply").unlink()
+    batch()
+
     # Other parameters: all of them.
     batch("--seed", 2)
     assert set(statuses(batch).values()) == {"done"}

@@ -4,7 +4,7 @@ import os
 import re
 
 import pytest
-from conftest import ROOT, call, files_in
+from conftest import ROOT, VERSION, call, files_in
 
 EXAMPLE = ROOT / "tests" / "install" / "example"
 
@@ -22,7 +22,7 @@ def test_plugin(installed, multiarch, has_plugin):
 def test_command_line(installed):
     prefix = installed("cli")
     assert files_in(prefix) == ["bin/ccdm_remesh", "share/doc/ccdm-remesh/copyright"]
-    assert "0.1.0" in call(prefix / "bin" / "ccdm_remesh", "--version")
+    assert VERSION in call(prefix / "bin" / "ccdm_remesh", "--version")
 
 
 def test_headers(development):
@@ -67,4 +67,4 @@ def test_another_minor_version_is_refused(development, tmp_path):
     (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.24)\nproject(p LANGUAGES CXX)\n"
                                              "find_package(ccdm 0.2 REQUIRED)\n")
     log = call("cmake", "-S", tmp_path, "-B", tmp_path / "b", f"-DCMAKE_PREFIX_PATH={development}", expect=1)
-    assert "version: 0.1.0" in log
+    assert f"version: {VERSION}" in log

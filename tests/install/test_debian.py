@@ -5,7 +5,7 @@ import shutil
 
 import plyfile
 import pytest
-from conftest import ROOT, call
+from conftest import ROOT, VERSION, call
 
 PLUGIN = "meshlab-filter-ccdm"
 SAMPLE = ROOT / "sample_meshes" / "cad_part.ply"
@@ -27,7 +27,7 @@ def is_installed(package):
 
 def test_plugin_package(packages, multiarch, has_plugin):
     package = packages[PLUGIN]
-    assert package.name == f"{PLUGIN}_0.1.0_{call('dpkg', '--print-architecture').strip()}.deb"
+    assert package.name == f"{PLUGIN}_{VERSION}_{call('dpkg', '--print-architecture').strip()}.deb"
     assert contents(package) == {
         f"./usr/lib/{multiarch}/meshlab/plugins/libfilter_ccdm.so": ("-rw-r--r--", "root/root"),
         f"./usr/share/doc/{PLUGIN}/copyright": ("-rw-r--r--", "root/root")}
@@ -45,7 +45,7 @@ def test_command_line_package(packages):
 def test_fields_of_both(packages):
     for name, package in packages.items():
         assert field(package, "Package") == name
-        assert field(package, "Version") == "0.1.0"
+        assert field(package, "Version") == VERSION
         assert field(package, "Section") == "graphics"
         assert field(package, "Maintainer").startswith("CCDM for MeshLab <")
         first, *more = field(package, "Description").splitlines()

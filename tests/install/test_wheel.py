@@ -6,7 +6,7 @@ import sys
 import zipfile
 
 import pytest
-from conftest import ROOT, call
+from conftest import ROOT, VERSION, call
 
 VERSIONS = ("2022.02", "2025.07")
 
@@ -33,8 +33,8 @@ def run_python(python, code, *paths):
 
 
 def test_names_and_contents(wheels, build):
-    assert re.fullmatch(r"ccdm_pymeshlab-0\.1\.0-py3-none-linux_\w+\.whl", wheels["ccdm_pymeshlab"].name)
-    assert wheels["ccdm_batch"].name == "ccdm_batch-0.1.0-py3-none-any.whl"
+    assert re.fullmatch(rf"ccdm_pymeshlab-{re.escape(VERSION)}-py3-none-linux_\w+\.whl", wheels["ccdm_pymeshlab"].name)
+    assert wheels["ccdm_batch"].name == f"ccdm_batch-{VERSION}-py3-none-any.whl"
     names = zipfile.ZipFile(wheels["ccdm_pymeshlab"]).namelist()
     built = [v for v in VERSIONS if (build / "plugins" / v / "libfilter_ccdm.so").exists()]
     assert [n for n in names if n.endswith(".so")] == [f"ccdm_pymeshlab/plugins/{v}/libfilter_ccdm.so" for v in built]

@@ -41,7 +41,7 @@ class Joined:
     """A target's sources as one file, and where each line of it comes from."""
 
     def __init__(self, folder, target, entries):
-        sources = [s for entry in entries for s in sources_of(entry) if "/vcglib/" not in s]
+        sources = [s for entry in entries for s in sources_of(entry) if "/vcglib/" not in s and "_autogen/" not in s]
         self.path = os.path.join(folder, target + ".cpp")
         self.origin, lines = [], []
         for source in sources:

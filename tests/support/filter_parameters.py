@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The filter's parameters: as the plugin's source declares them, and as the page in its folder lists them."""
+"""The filter's parameters: as the plugin's source declares them, and as the pages list them."""
 import os
 import re
 
@@ -14,6 +14,14 @@ def page_rows():
             for line in page.splitlines() if line.startswith("| ")]
     head = next(i for i, row in enumerate(rows) if row[0] == "dialog")
     return [row for row in rows[head + 1:] if len(row) == 7]
+
+
+def readme_names():
+    """The names in scripts that the README's table of parameters has."""
+    page = open(os.path.join(ROOT, "README.md"), encoding="utf-8").read()
+    table = page[page.index("| command line | script and dialog |"):].split("\n\n")[0]
+    names = (re.match(r"`(\w+)`", line.split("|")[2].strip()) for line in table.splitlines())
+    return [name[1] for name in names if name]
 
 
 def declared():

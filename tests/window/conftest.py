@@ -57,7 +57,7 @@ def meshlab(desktop, request, pictures_folder):
     yield start
     try:
         if getattr(request.node, "failed", False):
-            desktop.screenshot(os.path.join(pictures_folder, f"failed_{request.node.name}.png"))
+            desktop.screenshot(os.path.join(pictures_folder, f"failed_{request.node.originalname}.png"))
             for m in running[-1:]:
                 print("\n".join(m.log()))
     finally:

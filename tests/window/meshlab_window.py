@@ -72,12 +72,16 @@ class MeshLab:
                 return e
         return None
 
-    def choose(self, *path):
-        """Does what an item of the menu bar is for, given the names from the outermost to its own."""
+    def item(self, *path):
+        """An item of the menu bar, given the names from the outermost to its own."""
         item = self.main.child("menu bar")
         for name in path[:-1]:
             item = item.child("menu item", name).child("popup menu")
-        item.child("menu item", path[-1]).press()
+        return item.child("menu item", path[-1])
+
+    def choose(self, *path):
+        """Does what an item of the menu bar is for."""
+        self.item(*path).press()
 
     def keys(self, *keys):
         """Presses keys in the window that has the keyboard."""

@@ -69,3 +69,41 @@ def test_second_run_during_the_first(meshlab, samples):
     assert "this filter is running already" in m.failure()
     m.wait_log("^Applied filter", since)
     assert m.is_alive() and m.layers() == [("cad_part", False), ("cad_part_ccdm", True)]
+
+
+def start_in_place(m):
+    """Starts a run of some seconds by a click: the bus would keep what is pressed until a run that it started is
+    over."""
+    dialog = ccdm.open_dialog(m)
+    ccdm.set_parameters(dialog, {"vertex_count": 40000, "new_layer": False})
+    since = len(m.log())
+    m.click(*dialog.body.child("push button", "Apply").centre)
+    m.wait_log("to 40000 vertices", since)
+    return dialog
+
+
+def test_layer_that_is_deleted_during_the_run(meshlab, samples):
+    m = meshlab(f"{samples}/cad_part.ply")
+    delete = m.item("Filters", "Mesh Layer", "Delete Current Mesh")
+    start_in_place(m)
+    delete.press()
+    # When the box is closed, this MeshLab goes on with the dialog of the first filter, which the second has replaced:
+    # some runs of any filter end it.
+    box = m.window("alert", "Filter Failure")
+    assert "not done: the layer was deleted while the filter was running" in box.find("label").name
+    assert m.is_alive() and m.layers() == []
+
+
+def test_layer_that_is_changed_during_the_run(meshlab, samples, tmp_path):
+    part, other = tmp_path / "part.ply", read_ply(f"{samples}/plate.ply")
+    part.write_bytes(open(f"{samples}/cad_part.ply", "rb").read())
+    m = meshlab(part)
+    reload_file = m.item("File", "Reload")
+    dialog = start_in_place(m)
+    plyfile.write_ply(part, other[0].tolist(), other[1].tolist())
+    reload_file.press()
+    assert "not done: the layer was changed while the filter was running" in m.failure()
+    assert m.is_alive() and m.layers() == [("part", True)]
+    dialog.close()
+    for a, b in zip(read_ply(m.export_mesh(tmp_path / "left.ply")), other):
+        assert np.array_equal(a, b)

@@ -13,13 +13,13 @@ import os
 import sys
 import time
 from pathlib import Path
-from typing import Any, Dict
+from typing import Any, Dict, Optional
 
 from ccdm_batch.engines import Engine, make_engine
 from ccdm_batch.failure import Failure
 from ccdm_batch.parameters import Parameters
 from ccdm_batch.process import end_with_parent
-from ccdm_batch.record import part_path, read_record, stat_of, write_record
+from ccdm_batch.record import part_path, read_record, record_path, stat_of, write_record
 
 _BLOCK = 1 << 20
 # The worker's own limit comes first; this one is for when there is no worker any more.
@@ -63,8 +63,7 @@ def _remesh(engine: Engine, job: Dict[str, Any], scratch: Path) -> Dict[str, Any
         record["input"] = origin
         write_record(target, record)
         return {"status": "kept", "report": record.get("report"), "seconds": record.get("seconds")}
-    if record is None and os.path.lexists(target):
-        raise Failure("name", f"'{target}' is there already and was not made by ccdm-batch; move it away")
+    _demand_own(record, target, job["verify"])
 
     start = time.monotonic()
     report = engine.remesh(copy, made, Parameters(**job["parameters"]), job["limit"])
@@ -110,10 +109,25 @@ def _hash(path: Path) -> str:
 
 
 def _same_content(record: Dict[str, Any], origin: Dict[str, Any], target: Path) -> bool:
-    with contextlib.suppress(OSError, KeyError, TypeError):
-        same_input = bool(record["input"]["sha256"] == origin["sha256"])
-        return same_input and _hash(target) == record["output"]["sha256"]
+    with contextlib.suppress(KeyError, TypeError):
+        return bool(record["input"]["sha256"] == origin["sha256"]) and _same_output(record, target)
     return False
+
+
+def _same_output(record: Dict[str, Any], target: Path) -> bool:
+    with contextlib.suppress(OSError, KeyError, TypeError):
+        return bool(_hash(target) == record["output"]["sha256"])
+    return False
+
+
+def _demand_own(record: Optional[Dict[str, Any]], target: Path, verify: bool) -> None:
+    """Raises Failure where a file of somebody else, or one that was changed, would be replaced."""
+    for path in (target, record_path(target)):
+        if record is None and os.path.lexists(path):
+            raise Failure("name", f"'{path}' is there already and was not made by ccdm-batch; move it away")
+    finished = record is not None and record.get("state") == "done"
+    if finished and not verify and os.path.lexists(target) and not _same_output(record or {}, target):
+        raise Failure("name", f"'{target}' was changed after it was made; move it away, or give --verify")
 
 
 def _publish(made: Path, target: Path, record: Dict[str, Any]) -> None:

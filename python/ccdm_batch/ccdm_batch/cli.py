@@ -6,7 +6,7 @@ import os
 import shutil
 import sys
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence
 
@@ -230,8 +230,9 @@ def _remove_old_parts(output: Path, limit: float) -> None:
     for folder, _, files in os.walk(output):
         for name in filter(is_part, files):
             path = Path(folder, name)
-            if path.stat().st_mtime < oldest:
-                path.unlink(missing_ok=True)
+            with suppress(FileNotFoundError):  # another run may be at it
+                if path.stat().st_mtime < oldest:
+                    path.unlink()
 
 
 def _write(rows: List[Dict[str, Any]], prefix: Path) -> None:

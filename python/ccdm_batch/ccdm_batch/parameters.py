@@ -11,19 +11,19 @@ LEAST_VERTICES = 4
 
 # These have options of their own, or belong to the machinery.
 _NOT_FURTHER = {
-    "vertices": "--vertices",
-    "vertex_count": "--vertices",
-    "feature_angle": "--feature-angle",
-    "density": "--density",
-    "seed": "--seed",
-    "threads": "--threads",
-    "report": None,
-    "quiet": None,
-    "new_layer": None,
-    "help": None,
-    "version": None,
-    "edge_length": None,
-    "max_error": None,
+    "vertices": "use --vertices",
+    "vertex_count": "use --vertices",
+    "edge_length": "the target is a number of vertices here",
+    "max_error": "the target is a number of vertices here",
+    "feature_angle": "use --feature-angle",
+    "density": "use --density",
+    "seed": "use --seed",
+    "threads": "use --threads",
+    "new_layer": "the result is a file",
+    "report": "it is in OUTPUT.json",
+    "quiet": "",
+    "help": "",
+    "version": "",
 }
 
 
@@ -58,8 +58,8 @@ def parse_further(items: Iterable[str]) -> Dict[str, Value]:
         if not equals or not re.fullmatch(r"[a-z][a-z0-9_]*", key) or not text.strip():
             raise ValueError(f"--set wants NAME=VALUE, not '{item}'")
         if key in _NOT_FURTHER:
-            option = _NOT_FURTHER[key]
-            raise ValueError(f"'{key}' cannot be given by --set" + (f"; use {option}" if option else ""))
+            reason = _NOT_FURTHER[key]
+            raise ValueError(f"'{key}' cannot be given by --set" + (f"; {reason}" if reason else ""))
         if key in result:
             raise ValueError(f"'{key}' is given twice")
         result[key] = _value(text.strip())

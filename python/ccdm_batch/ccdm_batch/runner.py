@@ -144,6 +144,7 @@ class Runner:
             "source": str(state.job.source),
             "target": str(state.job.target),
             "compare": state.compare,
+            "verify": self.settings.verify,
         }
         # Earlier meshes first, so that what is tried again does not wait for the end.
         name = f"ccdm-remesh-{self.run}-{index}-{state.attempts}"

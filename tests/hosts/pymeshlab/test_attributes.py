@@ -176,6 +176,22 @@ def test_own_normals_are_carried_and_others_computed():
     assert (own * plain).sum(1).min() < 0.9
 
 
+@pytest.mark.parametrize("source", ["polygons of a file", "arrays"])
+def test_normals_that_the_host_has_computed_are_no_own(tmp_path, source):
+    """It weights the faces around a vertex in several ways, which differ at the corners of a box."""
+    points, faces = plyfile.box()
+    ms = set_of(numpy.array(points, float), numpy.array(faces))
+    if source != "arrays":
+        quads = [(*first, second[2]) for first, second in zip(faces[::2], faces[1::2])]
+        ms = pymeshlab.MeshSet()
+        ms.load_new_mesh(plyfile.write_ply(str(tmp_path / "box.ply"), points, quads))
+        assert len(ms.current_mesh().polygonal_face_list()) == 6
+    ms.apply_filter(FILTER, vertex_count=400, global_iterations=2)
+    now, normals = ms.current_mesh().vertex_matrix(), ms.current_mesh().vertex_normal_matrix()
+    flat = (numpy.minimum(numpy.abs(now), numpy.abs(now - 1)) < 1e-9).sum(1) == 1
+    assert flat.sum() > 100 and numpy.abs(normals[flat]).max(1).min() > 0.999999
+
+
 @pytest.mark.parametrize("new_layer", [True, False])
 def test_texture_seam_of_a_tube(tmp_path, new_layer):
     ms = textured(tmp_path, *cylinder())

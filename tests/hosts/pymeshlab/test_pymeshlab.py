@@ -17,6 +17,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from host import (FILTER, PLUGIN, PLUGINS, SAMPLES, SCRIPTS, VERSION, content, load, meshes, refused,  # noqa: E402
                   set_of)
 import plyfile  # noqa: E402
+from filter_parameters import page_rows  # noqa: E402
 
 
 def remesh(name, **parameters):
@@ -322,13 +323,12 @@ def test_page_has_the_hosts_names_types_and_defaults():
     code = f"import pymeshlab; pymeshlab.load_plugin({PLUGIN!r}); pymeshlab.print_filter_parameter_list({FILTER!r})"
     listed = re.findall(r"^\s+(\w+) : (\w+) = (.*)$", subprocess.run([sys.executable, "-c", code], text=True, check=True,
                                                                      capture_output=True).stdout, re.M)
-    page = open(os.path.join(os.path.dirname(SCRIPTS), "PARAMETERS.md"), encoding="utf-8").read()
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in page.splitlines()
-            if re.match(r"\| .*\| Rich", line)]
+    rows = page_rows()
     types = {"RichInt": "int", "RichFloat": "float", "RichEnum": "str", "RichBool": "bool"}
     default = {"the current count": "8"}
     assert [(name, kind, value.lower()) for name, kind, value in listed] == \
         [(row[2].strip("`"), types[row[3]], default.get(row[5], row[5]).lower()) for row in rows]
+    page = open(os.path.join(os.path.dirname(SCRIPTS), "PARAMETERS.md"), encoding="utf-8").read()
     keys = set(re.findall(r"`(\w+)`", page[page.index("## What PyMeshLab returns"):])) - {"apply_filter", "min_angle"}
     assert keys == set(remesh("two_components", vertex_count=100, global_iterations=1)[1])
 
@@ -371,12 +371,19 @@ for turn in range(2):
     ms = pymeshlab.MeshSet(verbose=turn == 0)
     ms.create_cube()
     try:
-        ms.apply_filter({FILTER!r}, vertex_count=1 if turn == 0 else 60)
+        ms.apply_filter({FILTER!r}, vertex_count=1 if turn == 0 else 61)
     except pymeshlab.PyMeshLabException:
         del ms # its log must not be used by the next set
 ms = pymeshlab.MeshSet(verbose=True)
 ms.create_cube()
 ms.apply_filter({FILTER!r}, vertex_count=60)
 """
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=False)
-    assert run.returncode == 0, run.stderr
+    run = subprocess.run([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                         timeout=120, check=False)
+    assert run.returncode == 0, run.stdout
+    lines = re.findall(r"^LOG: \d (?:CCDM: )?(.*)$", run.stdout, re.M)
+    assert "vertex_count must lie between 4" in "".join(line for line in lines if "not done" in line)
+    plan = next(i for i, line in enumerate(lines) if re.match("remeshing 8 vertices, 12 faces to 60 vertices", line))
+    table = next(i for i, line in enumerate(lines) if line.split() == ["vertices", "8", "60"])
+    assert plan < table
+    assert not any("61" in line for line in lines), "the quiet one says nothing"

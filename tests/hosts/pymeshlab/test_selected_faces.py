@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from host import (FILTER, add_points, content, custom, everything, load, log_of, meshes, pymeshlab,  # noqa: E402
                   refused, same, set_of, uv_areas)
 import plyfile  # noqa: E402
-from test_attributes import cylinder, field, textured, wedges  # noqa: E402
+from test_attributes import cylinder, field, textured, wedges, write_textured_obj  # noqa: E402
 
 
 def edge_uses(faces):
@@ -166,6 +166,36 @@ def test_what_cannot_be_done_is_refused():
     for new_layer in (True, False):
         refused(ms, "the vertex count must be at least", selected_faces_only=True, vertex_count=10,
                 new_layer=new_layer)
+
+
+def test_an_error_that_is_not_reached_is_told_in_percent_of_the_whole():
+    """In a process of its own: after a failure PyMeshLab's progress still goes to the log of a MeshSet that is gone."""
+    lines = log_of("""
+ms.load_new_mesh(SAMPLES + "/sphere.ply")
+ms.compute_selection_by_condition_per_face(condselect="z0 + z1 + z2 > 2.7")
+try:
+    ms.apply_filter(FILTER, selected_faces_only=True, max_error=0.0001, global_iterations=0, local_iterations=1)
+except pymeshlab.PyMeshLabException as error:
+    print("LOG: 0 CCDM:", str(error).partition("CCDM remeshing was not done: ")[2], file=sys.stderr)
+""")
+    assert re.fullmatch(r"an error of 0\.0001 % of the diagonal was not reached in \d run\(s\); the closest came within "
+                        r"0\.00\d+ %", lines[-1])
+
+
+def test_log_counts_what_faces_use_and_the_seams_of_the_part(tmp_path):
+    """A tube whose lower half is remeshed, with half of its seam, and a vertex that no face uses."""
+    points, faces, uv = cylinder()
+    source = write_textured_obj(tmp_path, numpy.vstack([points, [0, 0, 1]]), faces, uv)
+    lines = log_of(f"""
+ms.load_new_mesh({source!r})
+ms.compute_selection_by_condition_per_face(condselect="z0 + z1 + z2 < 3")
+ms.apply_filter(FILTER, vertex_count=400, global_iterations=1, selected_faces_only=True, feature_angle=100)
+print("LOG: 0 CCDM: counted", ms.current_mesh().vertex_number(), len(numpy.unique(ms.current_mesh().face_matrix())))
+""")
+    table = {cells[0]: cells[1:] for cells in (line.rsplit(None, 2) for line in lines) if len(cells) == 3}
+    every, used = map(int, table["counted"])
+    assert every == used + 1 and table["vertices"] == [str(len(points)), str(used)]
+    assert "4 seam edges of the texture coordinates were kept as features" in lines
 
 
 def test_log_of_a_partial_run():

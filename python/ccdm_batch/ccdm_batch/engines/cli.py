@@ -72,6 +72,8 @@ class CommandLineEngine:
             **parameters.further,
             "threads": self.threads,
         }
+        if str(values.get("optimizer")).lower() == "annealing":
+            values.setdefault("sampler", "random")  # as in the filter
         return [
             text for key, value in values.items() if value is not None for text in (_option(key), str(value))
         ]

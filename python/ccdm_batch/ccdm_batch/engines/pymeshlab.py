@@ -37,10 +37,6 @@ _PLACES: Dict[str, Tuple[str, ...]] = {
 }
 
 
-# The host would write normals that are not of unit length.
-_SAVE = {".off": {"save_vertex_normal": False}, ".obj": {"save_vertex_normal": False}}
-
-
 class PyMeshLabEngine:
     """Applies the filter `meshing_isotropic_ccdm` of the plugin file."""
 
@@ -73,7 +69,7 @@ class PyMeshLabEngine:
         values = self._values(parameters, before["vertices"], mesh_set.filter_parameter_values(FILTER))
         outputs = _call("refused", mesh_set.apply_filter, FILTER, **values)
         mesh = mesh_set.current_mesh()
-        _call("output", mesh_set.save_current_mesh, str(target), **_SAVE.get(target.suffix, {}))
+        _call("output", mesh_set.save_current_mesh, str(target))
         if not target.exists():
             raise Failure("output", f"PyMeshLab wrote no {target.suffix.lstrip('.').upper()} file")
         report: Dict[str, Any] = {
