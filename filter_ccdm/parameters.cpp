@@ -119,6 +119,11 @@ RichParameterList DeclareParameters(int vertices)
     list.addParam(RichFloat("approximation", static_cast<Scalarm>(p.approximation), "Approximation (weight)",
                             Tip("How much closeness to the original counts against the angles in the closing steps, "
                                 "0 to 1. Above 0.5 the vertices may leave the surface.") CCDM_ADVANCED));
+    list.addParam(
+        RichEnum("repair", 0, QStringList({"Harmless only", "Cut apart"}), "Repair",
+                 Tip("What is mended of a mesh that is no surface. Harmless only: nothing that changes it; it "
+                     "is refused, with the places. Cut apart: edges of more than two faces, and vertices that "
+                     "join several sheets, are cut.") CCDM_ADVANCED));
     list.addParam(RichInt("seed", static_cast<int>(p.seed), "Seed",
                           Tip("Seed of the random generator, 0 to 2147483647. The same mesh, parameters and seed give "
                               "the same result.") CCDM_ADVANCED));
@@ -160,6 +165,7 @@ Settings ReadParameters(const RichParameterList &list)
     if (list.getFloat("min_angle") != Auto)
         p.minAngle = Real(list, "min_angle", 0, 45, OrAuto);
     p.approximation = Real(list, "approximation", 0, 1);
+    p.repair = static_cast<vcg::ccdm::RepairKind>(Choice(list, "repair", 2));
     p.seed = static_cast<std::uint32_t>(Whole(list, "seed", 0, 2147483647));
     return s;
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
+#include <vcg/complex/algorithms/ccdm/mended_figures.h>
 #include <vcg/complex/algorithms/ccdm/target_search.h>
 
 using vcg::ccdm::Params;
@@ -12,8 +15,9 @@ using Quality = vcg::tri::MeshQuality<filter_ccdm::Mesh>;
 namespace filter_ccdm {
 
 Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
-    : report(std::move(r)), seconds(time), diagonal(Diagonal(input)), before(Quality::Measure(input)),
-      after(Quality::Measure(result)), distance(Quality::Distance(input, result))
+    : report(std::move(r)), seconds(time), diagonal(Diagonal(input)),
+      before(vcg::ccdm::AsMended(Quality::Measure(input), report)), after(Quality::Measure(result)),
+      distance(Quality::Distance(input, result)), selfIntersections(Quality::CountSelfIntersections(input, result))
 {
 }
 
@@ -79,6 +83,12 @@ QStringList DescribeRun(const Measured &run)
     lines << QString("distance / diagonal: Hausdorff %1, RMS %2")
                  .arg(run.distance.hausdorff, 0, 'e', 2)
                  .arg(run.distance.rms, 0, 'e', 2);
+    const vcg::tri::SelfIntersectionCounts &crossing = run.selfIntersections;
+    if (crossing.before + crossing.after > 0)
+        lines << QString("pairs of faces that cross: %1 before, %2 after; faces in new ones: %3")
+                     .arg(crossing.before)
+                     .arg(crossing.after)
+                     .arg(crossing.newFaces);
     lines << QString("topology%1 %2 (Euler characteristic %3, %4 boundary loops, %5)")
                  .arg(report.keptVertices > 0 ? " of the remeshed part" : "",
                       report.topologyPreserved ? "preserved" : "changed")
@@ -129,6 +139,13 @@ Outputs OutputsOf(const Measured &run)
     out["euler_characteristic_after"] = run.after.euler;
     out["boundary_loops"] = run.after.boundaryLoops;
     out["components"] = run.after.components;
+    // A count of pairs above the range of int is one too many to be read.
+    const auto count = [](long long pairs) {
+        return static_cast<int>(std::min<long long>(pairs, std::numeric_limits<int>::max()));
+    };
+    out["crossing_pairs_before"] = count(run.selfIntersections.before);
+    out["crossing_pairs_after"] = count(run.selfIntersections.after);
+    out["faces_in_new_crossings"] = run.selfIntersections.newFaces;
     out["topology_preserved"] = report.topologyPreserved;
     out["target_met"] = vcg::ccdm::TargetSearch::Met(report);
     out["energy_before"] = report.energy.empty() ? 0.0 : report.energy.front();

@@ -27,6 +27,7 @@ struct Measured {
     double diagonal; ///< of the input
     vcg::tri::MeshQualityReport before, after;
     vcg::tri::SurfaceDistance distance;
+    vcg::tri::SelfIntersectionCounts selfIntersections;
 };
 
 /// What will be done, for the log before the run.

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include <vcg/complex/algorithms/ccdm/mended_figures.h>
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 #include <vcg/complex/algorithms/mesh_quality.h>
 
@@ -70,25 +71,6 @@ double SecondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The figures of the input with the topology that it has when what had to be is mended.
-vcg::tri::MeshQualityReport AsMended(vcg::tri::MeshQualityReport q, const vcg::ccdm::Report &engine)
-{
-    const vcg::ccdm::InputDefects &d = engine.defects;
-    const vcg::ccdm::TopologyCounts &t = engine.inputTopology;
-    if (d.mergedVertices + d.duplicateFaces + d.copiedVertices == 0)
-        return q;
-    q.vertices = t.vertices + q.unreferenced;
-    q.edges = t.edges;
-    q.faces = t.faces;
-    q.euler = t.euler;
-    q.components = t.components;
-    q.boundaryLoops = t.boundaryLoops;
-    q.orientable = t.orientable;
-    const int holes = 2 * t.components - t.euler - t.boundaryLoops;
-    q.genus = t.orientable ? holes / 2.0 : holes;
-    return q;
-}
-
 // From file to file; the status and the message say how it ended.
 void Remesh(const Options &options, RunSummary &run)
 {
@@ -116,7 +98,7 @@ void Remesh(const Options &options, RunSummary &run)
         return end(NotWritten, options.output + ": " + fault);
     if (!options.quiet || !options.report.empty()) {
         const auto written = std::chrono::steady_clock::now();
-        run.before = AsMended(Quality::Measure(input), run.engine);
+        run.before = vcg::ccdm::AsMended(Quality::Measure(input), run.engine);
         run.after = Quality::Measure(result);
         run.distance = Quality::Distance(input, result);
         run.selfIntersections = Quality::CountSelfIntersections(input, result);
