@@ -16,6 +16,10 @@ usage: ./run.sh VERB
           bench scaling [--sizes N ...] [--repeats N],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
+  fuzz SECONDS
+          random and spoilt meshes and files, for that long: what is found lies in build/fuzz/findings
+  coverage
+          the lines of vcg_ext that the tests reach: build/coverage/lines.txt
   package the same set-up, then the Debian packages and Python wheels, in build/packages
   screenshots
           the pictures of MeshLab's window in filter_ccdm/pictures, taken anew
@@ -31,6 +35,7 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
 test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0)
 package_packages=(python3-pip python3-setuptools python3-wheel binutils)
+fuzz_packages=(clang libclang-rt-14-dev)
 # What drives MeshLab's window.
 window_packages=(xvfb openbox xdotool imagemagick x11-utils dbus at-spi2-core gir1.2-atspi-2.0 python3-gi python3-numpy)
 # CGAL, Python's environments, and what the wheels of other remeshers link to.
@@ -185,6 +190,52 @@ package() {
     ls -1 build/packages/*
 }
 
+# Clang's fuzzer on both targets at once.
+fuzz() {
+    local seconds=${1:-} target
+    case "$seconds" in '' | *[!0-9]*) usage; exit 2 ;; esac
+    install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
+    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    say "building the fuzzers"
+    mkdir -p build/fuzz/findings
+    CXX=clang++ cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=None -DCCDM_FUZZ=ON -DCCDM_BUILD_PLUGIN=OFF \
+        >build/fuzz/configure.log || { cat build/fuzz/configure.log; fail "cmake failed"; }
+    cmake --build build/fuzz --target fuzz_remesher fuzz_readers >build/fuzz/build.log ||
+        { grep -E 'error|FAILED' -A5 build/fuzz/build.log; fail "the build failed"; }
+    for target in remesher readers; do
+        mkdir -p "build/fuzz/corpus-$target"
+        # The files that once failed are seeds.
+        UBSAN_OPTIONS=print_stacktrace=1 build/fuzz/bin/fuzz_$target "build/fuzz/corpus-$target" \
+            "tests/fuzz/corpus/$target" -artifact_prefix=build/fuzz/findings/$target- -max_len=2000 -timeout=30 \
+            -rss_limit_mb=2000 -malloc_limit_mb=1000 -max_total_time="$seconds" -print_final_stats=1 \
+            >"build/fuzz/$target.log" 2>&1 &
+    done
+    wait
+    for target in remesher readers; do
+        say "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$target.log") executions"
+    done
+    [ -z "$(ls build/fuzz/findings)" ] || { ls -1 build/fuzz/findings/*; fail "there are findings"; }
+    say "no findings"
+}
+
+coverage() {
+    install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" gcovr
+    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    say "building with counters"
+    mkdir -p build/coverage
+    cmake -S . -B build/coverage -G Ninja -DCMAKE_BUILD_TYPE=None -DCCDM_COVERAGE=ON -DCCDM_BUILD_PLUGIN=OFF \
+        >build/coverage/configure.log || { cat build/coverage/configure.log; fail "cmake failed"; }
+    cmake --build build/coverage >build/coverage/build.log ||
+        { grep -E 'error|FAILED' -A5 build/coverage/build.log; fail "the build failed"; }
+    say "tests"
+    find build/coverage -name '*.gcda' -delete
+    ctest --test-dir build/coverage -j2 -L 'parts|remesher|command_line' >build/coverage/ctest.log ||
+        { tail -20 build/coverage/ctest.log; fail "a test failed"; }
+    gcovr -r . --filter 'vcg_ext/vcg/' --exclude-unreachable-branches --exclude-throw-branches \
+        -o build/coverage/lines.txt build/coverage
+    tail -4 build/coverage/lines.txt
+}
+
 screenshots() {
     install_packages "${build_packages[@]}" "${window_packages[@]}"
     build
@@ -212,6 +263,8 @@ demo) demo ;;
 test) run_tests ;;
 build) build ;;
 bench) bench "${@:2}" ;;
+fuzz) fuzz "${2:-}" ;;
+coverage) coverage ;;
 package) package ;;
 screenshots) screenshots ;;
 clean)
