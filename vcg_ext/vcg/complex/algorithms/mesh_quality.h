@@ -100,6 +100,9 @@ public:
     static SelfIntersectionCounts CountSelfIntersections(const MeshType &original, const OtherMesh &result)
     {
         TriangleSoup a = TriangleSoup::From(original), b = TriangleSoup::From(result);
+        const double scale = UnitFrame(a).Factor();
+        a = Scaled(std::move(a), scale);
+        b = Scaled(std::move(b), scale);
         const SelfIntersections before(a), after(b);
         SelfIntersectionCounts counts;
         counts.before = before.pairs;
@@ -128,6 +131,14 @@ public:
 private:
     using Vector = TriangleSoup::Vector;
     using Face = TriangleSoup::Face;
+
+    // By a power of two: squares of the mesh's own lengths might be out of range.
+    static TriangleSoup Scaled(TriangleSoup s, double factor)
+    {
+        for (Vector &p : s.point)
+            p *= factor;
+        return s;
+    }
 
     // Sets joined step by step; each member knows its orientation relative to its parent.
     class DisjointSets
@@ -180,11 +191,12 @@ private:
     };
 
     struct Survey {
+        const double scale;
         const TriangleSoup soup;
         MeshQualityReport report;
         std::vector<EdgeUse> use;
 
-        explicit Survey(TriangleSoup s) : soup(std::move(s))
+        explicit Survey(TriangleSoup s) : scale(UnitFrame(s).Factor()), soup(Scaled(std::move(s), scale))
         {
             report.vertices = static_cast<int>(soup.point.size());
             CollectEdges();
@@ -345,7 +357,7 @@ private:
                 const Vector &a = soup.point[f[0]];
                 const double area = ((soup.point[f[1]] - a) ^ (soup.point[f[2]] - a)).Norm() / 2;
                 const double q = longest > 0 ? 4 * std::sqrt(3.0) * area / (perimeter * longest) : 0;
-                report.area += area;
+                report.area += area / (scale * scale);
                 sumMin += smallest;
                 sumQ += q;
                 low = std::min(low, smallest);

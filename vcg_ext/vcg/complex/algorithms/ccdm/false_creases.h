@@ -40,7 +40,9 @@ public:
         for (std::size_t k = 0; k < crease.size(); ++k) {
             const Side s = crease[k];
             const double around = (rough[_mesh.Tail(s)] + rough[_mesh.Head(s)]) / 2;
-            if (Turn(s) > Prominence * around && TurnsAtLargeScale(s, static_cast<int>(k)))
+            // An edge between two vertices at one place has no direction; it goes on with a crease or hangs loose.
+            const bool point = _surface.position[_mesh.Tail(s)] == _surface.position[_mesh.Head(s)];
+            if (point || (Turn(s) > Prominence * around && TurnsAtLargeScale(s, static_cast<int>(k))))
                 kept.push_back(s);
             else
                 _mesh.SetConstrained(s, false);

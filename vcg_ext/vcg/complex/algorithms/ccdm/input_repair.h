@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <tuple>
@@ -102,7 +103,8 @@ private:
         }
     }
 
-    // Joins pairs of boundary sides whose ends lie at the same two positions, where there are just two.
+    // Joins pairs of boundary sides whose ends lie at the same two positions, where there are just two, and the
+    // surface goes on from one to the other: a sheet that is folded onto itself stays one.
     void Sew()
     {
         std::vector<Use> open;
@@ -137,7 +139,7 @@ private:
         std::sort(open.begin(), open.end());
         DisjointSets merged(mesh.position.size());
         VisitEdges(open, [&](auto first, auto last) {
-            if (last - first != 2 || first->a == first->b)
+            if (last - first != 2 || first->a == first->b || FoldsBack(*first, *(first + 1)))
                 return;
             for (const int i : {1, 2})
                 for (const int k : {1, 2}) {
@@ -152,6 +154,21 @@ private:
         for (auto &f : mesh.face)
             for (int &v : f)
                 v = merged.SetOf(v);
+    }
+
+    // Whether two faces on one edge lie on the same side of it, to 30 degrees.
+    bool FoldsBack(const Use &one, const Use &other) const
+    {
+        const auto at = [&](const Use &u, int k) { return mesh.position[mesh.face[u.face][(u.corner + k) % 3]]; };
+        const Point p = at(one, 1), edge = at(one, 2) - p;
+        const double length = SquaredNorm(edge);
+        const auto away = [&](const Use &u) {
+            const Point w = at(u, 0) - p;
+            return length > 0 ? Point(w - edge * (Dot(w, edge) / length)) : w;
+        };
+        const Point a = away(one), b = away(other);
+        constexpr double cosine = 0.8660254037844387; // of 30 degrees
+        return Dot(a, b) > cosine * std::sqrt(SquaredNorm(a) * SquaredNorm(b));
     }
 
     // Gives each fan of a vertex, where the edges of more than two faces end one, a vertex of its own. That always

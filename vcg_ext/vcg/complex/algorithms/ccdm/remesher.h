@@ -128,7 +128,7 @@ private:
                                            _report.message);
                 params.optimizer = OptimizerKind::Annealing;
                 params.sampler = SamplerKind::Random;
-            } else if (got < MostForGrowth && growths++ < MostGrowths) {
+            } else if (got < MostForGrowth * _report.inputTopology.components && growths++ < MostGrowths) {
                 const double before = params.vertexCount;
                 params.vertexCount = got + got / 2;
                 for (double &h : model.density.spacing)
@@ -554,7 +554,7 @@ private:
     static constexpr double AngleSlack = 0.05; // degrees
     /// Fewest vertices of a mesh that is to be refined.
     static constexpr int LeastCoarse = 1000;
-    /// Counts below this may be raised where fewer vertices cannot but fold.
+    /// Counts below this for each component may be raised where fewer vertices cannot but fold.
     static constexpr int MostForGrowth = 200;
     static constexpr int MostGrowths = 8;
     // Growth of the spacing per way, for curvature: measured, less makes better triangles, more follows the

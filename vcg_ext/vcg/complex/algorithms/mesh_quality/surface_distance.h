@@ -96,6 +96,9 @@ public:
         return soup;
     }
 
+    /// The power of two that the extent is multiplied by.
+    double Factor() const { return _factor; }
+
 private:
     TriangleSoup::Vector _middle;
     double _factor = 1;
