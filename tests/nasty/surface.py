@@ -140,11 +140,14 @@ def smallest_angles(points, triangles):
     return np.degrees(np.min(angles, axis=0))
 
 
-def spacing(points, triangles, count):
-    """Of that many vertices, were they spread evenly over the surface."""
-    a, b, c = (points[[t[k] for t in triangles]] for k in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-    return (2 * area / (3 ** 0.5 * count)) ** 0.5
+def area(points, faces):
+    """Of polygons in a plane each; those on the same vertices count once."""
+    faces = list({frozenset(f): f for f in faces}.values())
+    fan = np.array([(n, f[0], *f[k:k + 2]) for n, f in enumerate(faces) for k in range(1, len(f) - 1)])
+    a, b, c = (points[fan[:, k]] for k in (1, 2, 3))
+    normal = np.zeros((len(faces), 3))
+    np.add.at(normal, fan[:, 0], np.cross(b - a, c - a))
+    return np.linalg.norm(normal, axis=1).sum() / 2
 
 
 def farthest(places, points, triangles):

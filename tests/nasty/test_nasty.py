@@ -75,8 +75,9 @@ def check_places(case, outcome):
     told, angles = outcome.report["result"], surface.smallest_angles(result, outcome.triangles)
     assert told["angle_min"] == pytest.approx(angles.min(), abs=1e-3)
     assert told["angle_min_avg"] == pytest.approx(angles.mean(), abs=1e-3)
-    triangles = [(f[0], *f[k:k + 2]) for f in faces for k in range(1, len(f) - 1)]
-    spacing = surface.spacing((outcome.points - low) / unit, triangles, len(result))
+    area = surface.area((outcome.points - low) / unit, faces)
+    assert surface.area(result, outcome.triangles) > 0.4 * area
+    spacing = (2 * area / (3 ** 0.5 * len(result))) ** 0.5
     places = (there[::max(1, len(there) // 60)] - low) / unit
     assert surface.farthest(places, result, outcome.triangles) <= 1.5 * spacing
 
