@@ -22,18 +22,20 @@ def box():
     return points, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
 
 
-def write_ply(path, points, faces, quality=None, binary=True):
+def write_ply(path, points, faces, quality=None, binary=True, double=False):
     """Polygons of any size; `quality` is one number a vertex."""
+    number = "double" if double else "float"
     kind = "binary_little_endian" if binary else "ascii"
     head = f"ply\nformat {kind} 1.0\nelement vertex {len(points)}\n"
-    head += "".join(f"property float {k}\n" for k in "xyz")
-    head += "property float quality\n" if quality is not None else ""
+    head += "".join(f"property {number} {k}\n" for k in "xyz")
+    head += f"property {number} quality\n" if quality is not None else ""
     head += f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
     with open(path, "wb") as out:
         out.write(head.encode())
         for k, p in enumerate(points):
             row = list(p) + ([quality[k]] if quality is not None else [])
-            out.write(struct.pack(f"<{len(row)}f", *row) if binary else (" ".join(map(repr, row)) + "\n").encode())
+            out.write(struct.pack(f"<{len(row)}{number[0]}", *row) if binary
+                      else (" ".join(map(repr, row)) + "\n").encode())
         for f in faces:
             out.write(struct.pack(f"<B{len(f)}i", len(f), *f) if binary
                       else (" ".join(map(str, [len(f), *f])) + "\n").encode())
