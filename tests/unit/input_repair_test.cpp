@@ -156,6 +156,45 @@ TEST(InputRepair, CutsWhateverGoesOnAround)
     EXPECT_EQ(cut.topology.components, 2);
 }
 
+TEST(InputRepair, ContractsEdgesWithoutLength)
+{
+    // A vertex that stands twice: two faces more, without area.
+    shapes::Shape s = shapes::Sphere(2);
+    const int v = 40, copy = static_cast<int>(s.points.size());
+    s.points.push_back(s.points[v]);
+    std::vector<int> around;
+    for (const shapes::F &f : s.faces)
+        if (std::find(f.begin(), f.end(), v) != f.end())
+            around.push_back(static_cast<int>(&f - s.faces.data()));
+    shapes::F &one = s.faces[around[0]];
+    const auto at = std::find(one.begin(), one.end(), v) - one.begin();
+    const int p = one[(at + 1) % 3], q = one[(at + 2) % 3];
+    *std::find(one.begin(), one.end(), v) = copy;
+    s.faces.push_back({copy, p, v});
+    s.faces.push_back({v, q, copy});
+    const Outcome taken = Taken(s);
+    EXPECT_EQ(taken.refusal, "");
+    EXPECT_EQ(taken.defects.mergedVertices, 1);
+    EXPECT_EQ(taken.defects.zeroAreaFaces, 2);
+    EXPECT_EQ(taken.topology.vertices, copy);
+    // Where that would change the type of the surface nothing is done: a ring of which one side is a point.
+    shapes::Shape ring = shapes::RoundTorus(12, 8);
+    for (int k = 0; k < 8; ++k)
+        ring.points[k] = ring.points[0];
+    EXPECT_EQ(Taken(ring).defects.mergedVertices, 0);
+    EXPECT_EQ(Taken(ring).topology.euler, 0);
+}
+
+TEST(InputRepair, LeavesASheetThatIsFoldedOntoItself)
+{
+    shapes::Shape s = shapes::FlatGrid(6);
+    for (shapes::P &p : s.points)
+        p[0] = std::min(p[0], 1 - p[0]);
+    const Outcome taken = Taken(s);
+    EXPECT_EQ(taken.defects.mergedVertices, 0);
+    EXPECT_EQ(taken.topology.boundaryLoops, 1);
+}
+
 TEST(InputRepair, TurnsTheFewerFaces)
 {
     shapes::Shape s = shapes::Sphere(2);

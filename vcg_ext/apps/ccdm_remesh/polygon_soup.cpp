@@ -43,19 +43,24 @@ public:
     std::vector<std::array<int, 3>> Run()
     {
         std::vector<std::array<int, 3>> triangles;
+        LookAtAll();
+        bool fresh = true;
         while (_left.size() > 3) {
-            // Where there is no ear, as in a polygon that crosses itself, any corner goes.
-            std::size_t best = 0;
-            double bestAngle = -1;
-            for (std::size_t k = 0; k < _left.size(); ++k) {
-                const double angle = IsEar(k) ? SmallestAngle(k) : -1;
-                if (angle > bestAngle) {
-                    best = k;
-                    bestAngle = angle;
-                }
+            std::size_t best =
+                static_cast<std::size_t>(std::max_element(_angle.begin(), _angle.end()) - _angle.begin());
+            // A corner that was none may have become an ear since. Where there is none at all, as in a polygon that
+            // crosses itself, any corner goes.
+            if (_angle[best] < 0 && !fresh) {
+                LookAtAll();
+                fresh = true;
+                continue;
             }
+            fresh = false;
             triangles.push_back({At(best + Size() - 1), At(best), At(best + 1)});
             _left.erase(_left.begin() + static_cast<std::ptrdiff_t>(best));
+            _angle.erase(_angle.begin() + static_cast<std::ptrdiff_t>(best));
+            for (const std::size_t k : {(best + Size() - 1) % Size(), best % Size()})
+                _angle[k] = Quality(k);
         }
         triangles.push_back({_left[0], _left[1], _left[2]});
         return triangles;
@@ -64,10 +69,21 @@ public:
 private:
     const std::vector<Point> &_corner;
     std::vector<int> _left;
+    std::vector<double> _angle; // of the triangles at what is left, as Quality() has them
     Point _normal = {0, 0, 0};
 
     std::size_t Size() const { return _left.size(); }
     int At(std::size_t k) const { return _left[k % Size()]; }
+
+    // The smallest angle of an ear, -1 for what is none.
+    double Quality(std::size_t k) const { return IsEar(k) ? SmallestAngle(k) : -1; }
+
+    void LookAtAll()
+    {
+        _angle.resize(Size());
+        for (std::size_t k = 0; k < Size(); ++k)
+            _angle[k] = Quality(k);
+    }
 
     bool TurnsLeft(const Point &a, const Point &b, const Point &c) const
     {
@@ -114,8 +130,8 @@ std::string CheckIndices(const PolygonSoup &soup)
 
 std::vector<std::array<int, 3>> SplitPolygon(const std::vector<std::array<double, 3>> &corner)
 {
-    // Cutting ears takes quadratic to cubic time.
-    constexpr std::size_t mostForEars = 300;
+    // Cutting ears takes quadratic time.
+    constexpr std::size_t mostForEars = 20000;
     if (corner.size() <= mostForEars)
         return EarClipper(corner).Run();
     std::vector<std::array<int, 3>> fan;

@@ -78,10 +78,10 @@ public:
     template <class OtherMesh>
     static SurfaceDistance Distance(const MeshType &original, const OtherMesh &result, int samples = 100000)
     {
-        TriangleSoup a = TriangleSoup::From(original);
+        TriangleSoup a = Solid(TriangleSoup::From(original));
         const UnitFrame frame(a);
         a = frame.Place(std::move(a));
-        const TriangleSoup b = frame.Place(TriangleSoup::From(result));
+        const TriangleSoup b = frame.Place(Solid(TriangleSoup::From(result)));
         const double diagonal = a.Diagonal();
         SurfaceDistance d;
         if (!(diagonal > 0) || a.face.empty() || b.face.empty())
@@ -131,6 +131,14 @@ public:
 private:
     using Vector = TriangleSoup::Vector;
     using Face = TriangleSoup::Face;
+
+    // Without the faces that name a vertex twice, which are no part of a surface.
+    static TriangleSoup Solid(TriangleSoup s)
+    {
+        const auto repeats = [](const Face &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; };
+        s.face.erase(std::remove_if(s.face.begin(), s.face.end(), repeats), s.face.end());
+        return s;
+    }
 
     // By a power of two: squares of the mesh's own lengths might be out of range.
     static TriangleSoup Scaled(TriangleSoup s, double factor)

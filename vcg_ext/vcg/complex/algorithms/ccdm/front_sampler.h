@@ -124,10 +124,13 @@ private:
 class FrontSampler
 {
 public:
+    /// `connected`: the surface is known to have one component.
     FrontSampler(const ReferenceSurface &surface, const FeatureGraph &features, const DensityField &density,
-                 bool orientable)
+                 bool orientable, bool connected = false)
         : _surface(surface), _features(features), _density(density), _orientable(orientable)
     {
+        if (!connected)
+            NumberComponents();
         _base = *std::min_element(density.spacing.begin(), density.spacing.end());
     }
 
@@ -164,10 +167,11 @@ public:
     }
 
 private:
-    // What keeps others away: a sample with its face and normal; without a face, one on a feature.
+    // What keeps others away: a sample with its face and normal; with no normal, one on a feature.
     struct Keeper {
-        Point normal;
+        Point point, normal;
         int face;
+        bool onFeature;
     };
     struct Sample {
         SurfacePoint at;
@@ -186,6 +190,7 @@ private:
     double _scale = 1;
     std::vector<Keeper> _keeper;
     std::vector<Sample> _queue;
+    std::vector<int> _component; // of each face; empty: there is but one
 
     double Spacing(const SurfacePoint &p) const
     {
@@ -193,17 +198,46 @@ private:
     }
     const Point &Corner(int face, int i) const { return _surface.position[_surface.mesh.triangle[face].v[i]]; }
 
+    void NumberComponents()
+    {
+        DisjointSets sets(static_cast<std::size_t>(_surface.FaceCount()));
+        for (int t = 0; t < _surface.FaceCount(); ++t)
+            for (const Side mate : _surface.mesh.triangle[t].n)
+                if (mate != NoSide)
+                    sets.Join(t, SideTriangle(mate));
+        for (int t = 0; t < _surface.FaceCount(); ++t)
+            _component.push_back(sets.SetOf(t));
+    }
+
+    bool OneComponent(int face, int other) const { return _component.empty() || _component[face] == _component[other]; }
+
+    // Whether the normals say that a keeper and a point lie on one sheet.
     bool Compatible(const Keeper &k, const Point &normal) const
     {
         const double cosine = Dot(k.normal, normal);
-        return k.face < 0 || (_orientable ? cosine : std::abs(cosine)) > 0.2;
+        return (_orientable ? cosine : std::abs(cosine)) > 0.2;
     }
+
+    // Whether a keeper that is near in space is so on the surface too.
+    bool OnSheet(const Keeper &k, const Point &p, int face, const Point &normal, double radius) const
+    {
+        if (!OneComponent(face, k.face))
+            return false;
+        if (k.onFeature)
+            return true;
+        // Faces whose normals differ may be on one sheet all the same, as in a crumpled spot; and where the way to
+        // the keeper leads off the surface, those whose normals agree may be on two.
+        const Point way = p - k.point;
+        const double off = Dot(way, normal);
+        return (Compatible(k, normal) && off * off < 0.25 * SquaredNorm(way)) ||
+               _surface.Joined(face, k.face, p, radius, MostJoined);
+    }
+
     bool Free(const PointBuckets &buckets, const Point &p, int face, const Point &normal, double radius, double spacing)
     {
         bool free = true;
         buckets.Near(p, radius, spacing, [&](int i, double) {
-            // Faces whose normals differ may be on one sheet all the same, as in a crumpled spot.
-            free = !Compatible(_keeper[i], normal) && !_surface.Joined(face, _keeper[i].face, p, radius, MostJoined);
+            free = !OnSheet(_keeper[i], p, face, normal, radius);
             return free;
         });
         return free;
@@ -217,7 +251,8 @@ private:
         _queue.clear();
         std::vector<SurfacePoint> found;
         for (const int v : _features.corner)
-            Keep(buckets, _surface.position[v], Point(0, 0, 0), -1, _scale * _density.spacing[v]);
+            Keep(buckets, {_surface.position[v], Point(0, 0, 0), _surface.mesh.incident[v], true},
+                 _scale * _density.spacing[v]);
         KeepAll(buckets, onCurves);
         for (const CurveSample &c : onCurves)
             ProposeFromCurve(buckets, c, found);
@@ -242,10 +277,10 @@ private:
         return static_cast<int>(at - c.arc.begin()) - 1;
     }
 
-    void Keep(PointBuckets &buckets, const Point &p, const Point &normal, int face, double spacing)
+    void Keep(PointBuckets &buckets, const Keeper &keeper, double spacing)
     {
-        buckets.Add(p, spacing);
-        _keeper.push_back({normal, face});
+        buckets.Add(keeper.point, spacing);
+        _keeper.push_back(keeper);
     }
 
     void KeepAll(PointBuckets &buckets, const std::vector<CurveSample> &onCurves)
@@ -255,7 +290,8 @@ private:
             const int k = curve.SegmentAt(c.s, HintSegment(curve, c.s));
             const Point &a = _surface.position[curve.vertex[k]], &b = _surface.position[curve.vertex[k + 1]];
             const Point p = a + (b - a) * curve.Fraction(k, c.s);
-            Keep(buckets, p, Point(0, 0, 0), -1, _scale * _density.spacing[curve.vertex[k]]);
+            Keep(buckets, {p, Point(0, 0, 0), SideTriangle(curve.side[k]), true},
+                 _scale * _density.spacing[curve.vertex[k]]);
         }
     }
 
@@ -268,7 +304,7 @@ private:
         const double h = Spacing(at);
         if (!Free(buckets, p, at.face, normal, 0.7 * h, h))
             return false;
-        Keep(buckets, p, normal, at.face, h);
+        Keep(buckets, {p, normal, at.face, false}, h);
         _queue.push_back({at, p, direction});
         found.push_back(at);
         return true;
@@ -322,7 +358,7 @@ private:
         const Point end = start + direction * length;
         bool taken = false;
         buckets.Near(end, 0.3 * length, length, [&](int i, double) {
-            taken = _keeper[i].face >= 0 && Compatible(_keeper[i], normal);
+            taken = !_keeper[i].onFeature && OneComponent(from.face, _keeper[i].face) && Compatible(_keeper[i], normal);
             return !taken;
         });
         if (taken)
@@ -436,7 +472,7 @@ private:
         _keeper.clear();
         KeepAll(buckets, onCurves);
         for (const SurfacePoint &s : samples)
-            Keep(buckets, _surface.At(s), Normalized(_surface.AreaVector(s.face)), s.face, Spacing(s));
+            Keep(buckets, {_surface.At(s), Normalized(_surface.AreaVector(s.face)), s.face, false}, Spacing(s));
         for (double radius = 0.68; static_cast<int>(samples.size()) < count; radius *= 0.93) {
             const int darts = std::max(64, radius > 0.05 ? 2 * count : 0);
             for (const SurfacePoint &p : SampleFaces(_surface, _density, darts, random)) {
@@ -445,7 +481,7 @@ private:
                 const Point x = _surface.At(p), normal = Normalized(_surface.AreaVector(p.face));
                 const double h = Spacing(p);
                 if (radius < 0.05 || Free(buckets, x, p.face, normal, radius * h, h)) {
-                    Keep(buckets, x, normal, p.face, h);
+                    Keep(buckets, {x, normal, p.face, false}, h);
                     samples.push_back(p);
                 }
             }

@@ -66,6 +66,7 @@ public:
     std::vector<int> originalFace; ///< face of the caller's mesh for each face
     InputDefects defects;
     TopologyCounts topology;
+    bool edgesWithoutLength = false;
     std::string refusal; ///< why the input cannot be remeshed; empty if it can
 
     InputMesh(const MeshTables &input, Workers &workers)
@@ -87,6 +88,14 @@ private:
     Point _center = Point(0, 0, 0);
     double _scale = 1;
     std::vector<int> _name; // of the input's vertices, if they have any
+
+    // Without squares that are out of range where the lengths are not.
+    static double Diagonal(const Bounds &box)
+    {
+        const Point size = box.high - box.low;
+        const double extent = std::max({size[0], size[1], size[2]});
+        return extent > 0 && std::isfinite(extent) ? extent * Norm(size / extent) : extent;
+    }
 
     // What the caller calls a vertex of the input.
     int Name(int v) const { return _name.empty() ? v : _name[v]; }
@@ -153,7 +162,7 @@ private:
             return Refuse(Counted(defects.badDensityVertices, "vertex has", "vertices have") +
                           " a density that is negative or not finite" + ListVertices(badDensity));
         // A power of two scales without rounding.
-        const double diagonal = box.Diagonal();
+        const double diagonal = Diagonal(box);
         if (!(diagonal > 0) || !std::isfinite(diagonal))
             return Refuse(diagonal > 0 ? "the mesh is too large for its coordinates" : "all vertices lie at one point");
         _center = (box.low + box.high) * 0.5;
@@ -409,6 +418,8 @@ private:
             const double area = Norm(Cross(a, b)) / 2;
             const double longest = std::max({SquaredNorm(a), SquaredNorm(b), SquaredNorm(b - a)});
             defects.zeroAreaFaces += !(area > 5e-13 * longest);
+            edgesWithoutLength =
+                edgesWithoutLength || SquaredNorm(a) == 0 || SquaredNorm(b) == 0 || SquaredNorm(b - a) == 0;
             total += area;
         }
         if (!(total > 1e-12))

@@ -30,13 +30,27 @@ public:
     int cutVertices = 0;
     bool changed = false;
 
-    InputRepair(const MeshTables &input, RepairKind kind) : mesh(input)
+    enum class Step {
+        Sew,      ///< pairs of boundaries at equal positions
+        CutApart, ///< edges of more than two faces, and vertices of more than one fan
+        Contract  ///< edges without length
+    };
+
+    /// Faces that repeat another are dropped first.
+    InputRepair(const MeshTables &input, Step step) : mesh(input)
     {
         DropRepeatedFaces();
-        if (kind == RepairKind::Split)
-            CutApart();
-        else
+        switch (step) {
+        case Step::Sew:
             Sew();
+            break;
+        case Step::CutApart:
+            CutApart();
+            break;
+        case Step::Contract:
+            Contract();
+            break;
+        }
         changed = droppedFaces + mergedVertices + cutVertices > 0;
     }
 
@@ -149,14 +163,30 @@ private:
                         merged.Join(v, w);
                 }
         });
-        for (const int v : rim)
+        Merge(merged);
+    }
+
+    // Makes one vertex of those that edges without length join; the faces at these edges vanish.
+    void Contract()
+    {
+        DisjointSets merged(mesh.position.size());
+        for (const auto &f : mesh.face)
+            for (int k = 0; k < 3; ++k)
+                if (mesh.position[f[k]] == mesh.position[f[Next(k)]])
+                    merged.Join(f[k], f[Next(k)]);
+        Merge(merged);
+    }
+
+    void Merge(DisjointSets &merged)
+    {
+        for (int v = 0; v < static_cast<int>(mesh.position.size()); ++v)
             mergedVertices += merged.SetOf(v) != v;
         for (auto &f : mesh.face)
             for (int &v : f)
                 v = merged.SetOf(v);
     }
 
-    // Whether two faces on one edge lie on the same side of it, to 30 degrees.
+    // Whether two faces on one edge lie on each other, to a degree.
     bool FoldsBack(const Use &one, const Use &other) const
     {
         const auto at = [&](const Use &u, int k) { return mesh.position[mesh.face[u.face][(u.corner + k) % 3]]; };
@@ -167,7 +197,7 @@ private:
             return length > 0 ? Point(w - edge * (Dot(w, edge) / length)) : w;
         };
         const Point a = away(one), b = away(other);
-        constexpr double cosine = 0.8660254037844387; // of 30 degrees
+        constexpr double cosine = 0.9998476951563913; // of 1 degree
         return Dot(a, b) > cosine * std::sqrt(SquaredNorm(a) * SquaredNorm(b));
     }
 
@@ -233,10 +263,14 @@ public:
         : _input(input), _prepared(std::make_unique<InputMesh>(input, workers))
     {
         // What must stay is part of a larger mesh, which is not taken in hand.
-        if ((_prepared->refusal.empty() && !MayBeSewn()) || !input.locked.empty())
+        if (!input.locked.empty())
             return;
-        if (!Try(RepairKind::Harmless, workers) && !_prepared->refusal.empty() && kind == RepairKind::Split)
-            Try(RepairKind::Split, workers);
+        if (!_prepared->refusal.empty() || MayBeSewn())
+            Try(InputRepair::Step::Sew, workers);
+        if (!_prepared->refusal.empty() && kind == RepairKind::Split)
+            Try(InputRepair::Step::CutApart, workers);
+        if (_prepared->refusal.empty() && _prepared->edgesWithoutLength)
+            Try(InputRepair::Step::Contract, workers);
     }
 
     InputMesh &Prepared() { return *_prepared; }
@@ -248,13 +282,14 @@ public:
     int CallersVertex(int v) const
     {
         const int own = static_cast<int>(_input.position.size());
-        return v < own ? v : _repaired->copied[static_cast<std::size_t>(v - own)];
+        return v < own ? v : _copied[static_cast<std::size_t>(v - own)];
     }
 
 private:
     const MeshTables &_input;
     std::unique_ptr<InputMesh> _prepared;
     std::unique_ptr<InputRepair> _repaired;
+    std::vector<int> _copied; // by all steps
 
     // Whether two vertices of the boundary lie at one position.
     bool MayBeSewn() const
@@ -273,26 +308,31 @@ private:
         return std::adjacent_find(rim.begin(), rim.end()) != rim.end();
     }
 
-    // Takes the input mended if that makes it a surface.
-    bool Try(RepairKind kind, Workers &workers)
+    // Takes what the step makes if that is a surface, and, when edges are contracted, of the same type.
+    void Try(InputRepair::Step step, Workers &workers)
     {
-        auto repaired = std::make_unique<InputRepair>(_input, kind);
+        auto repaired = std::make_unique<InputRepair>(Tables(), step);
         if (!repaired->changed)
-            return false;
+            return;
         auto again = std::make_unique<InputMesh>(repaired->mesh, workers);
-        if (!again->refusal.empty())
-            return false;
+        if (!again->refusal.empty() ||
+            (step == InputRepair::Step::Contract && !again->topology.SameTypeAs(_prepared->topology)))
+            return;
+        // What an earlier step has mended counts, what the input was refused for does not.
+        const InputDefects &before = _prepared->defects, mended = _repaired ? before : InputDefects();
         InputDefects &d = again->defects;
-        d.nonManifoldEdges = repaired->cutEdges;
-        d.nonManifoldVertices = repaired->cutVertices;
-        d.duplicateFaces = repaired->droppedFaces;
-        d.mergedVertices = repaired->mergedVertices;
-        d.copiedVertices = static_cast<int>(repaired->copied.size());
-        d.repeatedIndexFaces -= repaired->droppedFaces;
-        d.unreferencedVertices -= repaired->mergedVertices;
+        d.nonManifoldEdges = mended.nonManifoldEdges + repaired->cutEdges;
+        d.nonManifoldVertices = mended.nonManifoldVertices + repaired->cutVertices;
+        d.duplicateFaces = mended.duplicateFaces + repaired->droppedFaces;
+        d.mergedVertices = mended.mergedVertices + repaired->mergedVertices;
+        d.copiedVertices = mended.copiedVertices + static_cast<int>(repaired->copied.size());
+        d.unreferencedVertices -= d.mergedVertices;
+        d.repeatedIndexFaces = before.repeatedIndexFaces;
+        d.zeroAreaFaces = std::max(d.zeroAreaFaces, before.zeroAreaFaces);
+        d.turnedFaces = std::max(d.turnedFaces, before.turnedFaces);
+        _copied.insert(_copied.end(), repaired->copied.begin(), repaired->copied.end());
         _prepared = std::move(again);
         _repaired = std::move(repaired);
-        return true;
     }
 };
 

@@ -102,6 +102,7 @@ private:
     bool AttemptAll(Model &model, Remesh &remesh)
     {
         Params params = _params;
+        TakeEnoughForComponents(model, params);
         int levels = params.optimizer == OptimizerKind::Accelerated ? Levels(model, params.vertexCount) : 0;
         for (int growths = 0;;) {
             bool passed = Attempt(model, params, levels, remesh);
@@ -140,6 +141,20 @@ private:
             }
             _report.message.clear();
         }
+    }
+
+    // A closed component takes four vertices, an open one three.
+    void TakeEnoughForComponents(Model &model, Params &params)
+    {
+        const TopologyCounts &t = _report.inputTopology;
+        const int least = (t.boundaryLoops > 0 ? 3 : 4) * t.components;
+        if (params.vertexCount >= least)
+            return;
+        for (double &h : model.density.spacing)
+            h *= std::sqrt(static_cast<double>(params.vertexCount) / least);
+        params.vertexCount = least;
+        _report.warnings.push_back("more vertices were taken, as " + Counted(t.components, "component", "components") +
+                                   " cannot do with fewer than " + std::to_string(least));
     }
 
     // Without the coarse level, which can lose thin parts: the result is taken if its smallest angle is the
@@ -283,11 +298,14 @@ private:
         if (_report.inputTopology.orientable)
             warn(d.turnedFaces, "face was turned over to agree with its neighbours",
                  "faces were turned over to agree with their neighbours");
-        if (d.copiedVertices > 0)
-            _report.warnings.push_back("the surface was cut apart at " + Counted(d.nonManifoldEdges, "edge", "edges") +
-                                       " of more than two faces, and " +
+        if (d.copiedVertices > 0) {
+            const std::string edges = d.nonManifoldEdges > 0 ? " at " + Counted(d.nonManifoldEdges, "edge", "edges") +
+                                                                   " of more than two faces"
+                                                             : "";
+            _report.warnings.push_back("the surface was cut apart" + edges + ": " +
                                        Counted(d.nonManifoldVertices, "vertex", "vertices") + " got " +
                                        Counted(d.copiedVertices, "copy", "copies"));
+        }
     }
 
     void WarnOfNarrowPlaces(ThinParts &thin, const InputMesh &prepared)
@@ -385,9 +403,9 @@ private:
             samples.onFaces = SampleFaces(model.surface, model.density, rest, random);
             break;
         case SamplerKind::Front:
-            samples.onFaces =
-                FrontSampler(model.surface, model.features, model.density, _report.inputTopology.orientable)
-                    .Run(samples.onCurves, rest, random, _workers);
+            samples.onFaces = FrontSampler(model.surface, model.features, model.density,
+                                           _report.inputTopology.orientable, _report.inputTopology.components == 1)
+                                  .Run(samples.onCurves, rest, random, _workers);
             break;
         }
         for (double &h : model.density.spacing)

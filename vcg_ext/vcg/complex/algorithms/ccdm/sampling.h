@@ -103,7 +103,10 @@ inline std::vector<CurveSample> SampleCurvesWithin(const ReferenceSurface &surfa
     if (static_cast<int>(samples.size()) <= most)
         return samples;
     const std::size_t fewest = SampleCurves(surface, features, density, 1e9).size();
-    for (double stretch = 1.05; static_cast<int>(samples.size()) > most && samples.size() > fewest; stretch *= 1.05)
+    // What cannot be within it anyway is not to starve the long curves as well.
+    const double widest = static_cast<int>(fewest) > most ? 1.5 : 1e9;
+    for (double stretch = 1.05; static_cast<int>(samples.size()) > most && samples.size() > fewest && stretch < widest;
+         stretch *= 1.05)
         samples = SampleCurves(surface, features, density, stretch);
     return samples;
 }

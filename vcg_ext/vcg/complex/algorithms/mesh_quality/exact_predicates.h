@@ -2,8 +2,8 @@
 #ifndef VCG_MESH_QUALITY_EXACT_PREDICATES_H
 #define VCG_MESH_QUALITY_EXACT_PREDICATES_H
 
+#include <array>
 #include <cmath>
-#include <vector>
 
 #include <vcg/space/point3.h>
 
@@ -33,49 +33,41 @@ public:
 
     void Add(double x)
     {
-        std::size_t kept = 0;
-        for (const double term : _term) {
-            const double sum = x + term, part = sum - x;
+        int kept = 0;
+        for (int k = 0; k < _count; ++k) {
+            const double term = _term[k], sum = x + term, part = sum - x;
             const double rest = (x - (sum - part)) + (term - part);
             if (rest != 0)
                 _term[kept++] = rest;
             x = sum;
         }
-        _term.resize(kept);
         if (x != 0)
-            _term.push_back(x);
+            _term[kept++] = x;
+        _count = kept;
     }
 
-    friend Expansion operator*(const Expansion &a, const Expansion &b)
+    void AddProduct(const Expansion &a, const Expansion &b)
     {
-        Expansion e;
-        for (const double x : a._term)
-            for (const double y : b._term) {
-                const double product = x * y;
-                e.Add(std::fma(x, y, -product));
-                e.Add(product);
+        for (int i = 0; i < a._count; ++i)
+            for (int j = 0; j < b._count; ++j) {
+                const double product = a._term[i] * b._term[j];
+                Add(std::fma(a._term[i], b._term[j], -product));
+                Add(product);
             }
-        return e;
     }
 
-    friend Expansion operator+(Expansion a, const Expansion &b)
+    void Negate()
     {
-        for (const double x : b._term)
-            a.Add(x);
-        return a;
+        for (int k = 0; k < _count; ++k)
+            _term[k] = -_term[k];
     }
 
-    friend Expansion operator-(Expansion a, const Expansion &b)
-    {
-        for (const double x : b._term)
-            a.Add(-x);
-        return a;
-    }
-
-    int Sign() const { return _term.empty() ? 0 : _term.back() > 0 ? 1 : -1; }
+    int Sign() const { return _count == 0 ? 0 : _term[_count - 1] > 0 ? 1 : -1; }
 
 private:
-    std::vector<double> _term;
+    static constexpr int Most = 200; // a determinant of three by three has 3 * 2 * 16 * 2 at most
+    int _count = 0;
+    std::array<double, Most> _term;
 };
 
 constexpr double Epsilon = 1.0 / (1ULL << 53);
@@ -93,7 +85,11 @@ inline int Orientation(const Vector &a, const Vector &b, const Vector &c, int i,
     if (std::abs(determinant) > (3 + 16 * Epsilon) * Epsilon * (std::abs(left) + std::abs(right)))
         return SignOf(determinant);
     const auto difference = Expansion::Difference;
-    return (difference(a[i], c[i]) * difference(b[j], c[j]) - difference(a[j], c[j]) * difference(b[i], c[i])).Sign();
+    Expansion sum;
+    sum.AddProduct(difference(a[j], c[j]), difference(b[i], c[i]));
+    sum.Negate();
+    sum.AddProduct(difference(a[i], c[i]), difference(b[j], c[j]));
+    return sum.Sign();
 }
 
 /// Of the tetrahedron: the sign of (a - d) * ((b - d) x (c - d)); 0 if the four lie in a plane.
@@ -110,6 +106,9 @@ inline int Orientation(const Vector &a, const Vector &b, const Vector &c, const 
         return SignOf(determinant);
     Expansion m[3][3];
     for (int k = 0; k < 3; ++k) {
+        // All in one plane of the coordinates.
+        if (a[k] == d[k] && b[k] == d[k] && c[k] == d[k])
+            return 0;
         m[0][k] = Expansion::Difference(a[k], d[k]);
         m[1][k] = Expansion::Difference(b[k], d[k]);
         m[2][k] = Expansion::Difference(c[k], d[k]);
@@ -117,7 +116,11 @@ inline int Orientation(const Vector &a, const Vector &b, const Vector &c, const 
     Expansion sum;
     for (int k = 0; k < 3; ++k) {
         const Expansion *x = m[(k + 1) % 3], *y = m[(k + 2) % 3];
-        sum = sum + m[k][2] * (x[0] * y[1] - y[0] * x[1]);
+        Expansion minor;
+        minor.AddProduct(y[0], x[1]);
+        minor.Negate();
+        minor.AddProduct(x[0], y[1]);
+        sum.AddProduct(m[k][2], minor);
     }
     return sum.Sign();
 }
