@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 
 namespace ccdm_remesh {
 
@@ -27,6 +28,16 @@ template <class T>
 T FromLittleEndian(const char *at)
 {
     return FromBytes<T>(at, false);
+}
+
+template <class T>
+void AppendLittleEndian(std::string &bytes, T x)
+{
+    char raw[sizeof(T)];
+    std::memcpy(raw, &x, sizeof(T));
+    const T swapped = FromLittleEndian<T>(raw);
+    std::memcpy(raw, &swapped, sizeof(T));
+    bytes.append(raw, sizeof(T));
 }
 
 } // namespace ccdm_remesh

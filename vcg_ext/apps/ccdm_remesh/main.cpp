@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <new>
 
@@ -10,6 +11,7 @@
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 #include <vcg/complex/algorithms/mesh_quality.h>
 
+#include "atomic_file.h"
 #include "mesh_io.h"
 #include "options.h"
 #include "platform.h"
@@ -30,10 +32,10 @@ enum ExitStatus {
     NotWritten = 5,
     CheckFailed = 6,
     NotReached = 7,
-    Interrupted = 130
+    Interrupted = 128 // and the signal's number
 };
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0; // the signal's number
 bool showProgress = false;
 
 bool OnProgress(const int at, const char *phase)
@@ -53,7 +55,7 @@ int ExitStatusOf(Status s)
     case Status::Done:
         return Done;
     case Status::Cancelled:
-        return Interrupted;
+        return Interrupted + interrupted;
     // The arguments have been checked by themselves: what is left is wrong for this input.
     case Status::InvalidParameter:
     case Status::InvalidInput:
@@ -80,6 +82,11 @@ void Remesh(const Options &options, RunSummary &run)
         run.message = message;
         run.seconds = SecondsSince(start);
     };
+    const auto stopped = [&](const char *when) {
+        if (interrupted != 0)
+            end(Interrupted + interrupted, options.input + ": interrupted " + when);
+        return interrupted != 0;
+    };
     const std::string unwritable = FindWriteFault(options.output);
     if (!unwritable.empty())
         return end(NotWritten, options.output + ": " + unwritable);
@@ -87,17 +94,23 @@ void Remesh(const Options &options, RunSummary &run)
     const ReadResult read = ReadMesh(options.input, input);
     if (!read.fault.empty())
         return end(Unreadable, options.input + ": " + read.fault);
+    if (stopped("after it was read"))
+        return;
     if (options.params.density == vcg::ccdm::DensityKind::Quality && !read.hasQuality)
         return end(Refused, options.input + ": it has no value per vertex to take the density from");
     run.engine = Remeshing::Do(input, result, options.params, OnProgress);
     run.engine.warnings.insert(run.engine.warnings.begin(), read.notes.begin(), read.notes.end());
     if (run.engine.status != Status::Done)
         return end(ExitStatusOf(run.engine.status), options.input + ": " + run.engine.message);
+    if (stopped("before the result was written"))
+        return;
     const std::string fault = WriteMesh(options.output, result);
     if (!fault.empty())
         return end(NotWritten, options.output + ": " + fault);
     if (!options.quiet || !options.report.empty()) {
         const auto written = std::chrono::steady_clock::now();
+        if (stopped("after the result was written"))
+            return;
         run.before = vcg::ccdm::AsMended(Quality::Measure(input), run.engine);
         run.after = Quality::Measure(result);
         run.distance = Quality::Distance(input, result);
@@ -107,9 +120,7 @@ void Remesh(const Options &options, RunSummary &run)
     end(Done, "");
 }
 
-} // namespace
-
-int main(int argc, char **argv)
+int Run(int argc, char **argv)
 {
     Options options;
     const int usage = ParseArguments(argc, argv, options);
@@ -120,7 +131,6 @@ int main(int argc, char **argv)
         std::cerr << "ccdm_remesh: " << options.report << ": " << unwritable << '\n';
         return NotWritten;
     }
-    std::signal(SIGINT, [](int) { interrupted = 1; });
     showProgress = !options.quiet && IsTerminal(stderr);
     RunSummary run;
     try {
@@ -144,4 +154,21 @@ int main(int argc, char **argv)
         }
     }
     return run.status;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    OpenStandardStreams();
+    CatchSignals([](int s) { interrupted = s; });
+    try {
+        return Run(argc, argv);
+    } catch (const std::bad_alloc &) { // where there is not even enough to say it in more words, or for the report
+        std::fputs("ccdm_remesh: not enough memory\n", stderr);
+        return Refused;
+    } catch (const std::exception &e) {
+        std::fprintf(stderr, "ccdm_remesh: %s\n", e.what());
+        return CheckFailed;
+    }
 }

@@ -15,6 +15,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "atomic_file.h"
 #include "mesh_io.h"
 
 namespace ccdm_remesh {
@@ -267,7 +268,8 @@ int ParseArguments(int argc, char **argv, Options &options)
     app.formatter(std::make_shared<HelpFormatter>());
     app.get_formatter()->label("Positionals", "Files");
     app.footer("Formats: ply, off, obj, stl. Exit status: 0 done, 2 wrong usage, 3 input unreadable, 4 input refused, "
-               "5 output not written, 6 result failed its check, 7 largest error not reached, 130 interrupted.");
+               "5 output not written, 6 result failed its check, 7 largest error not reached, "
+               "128 + number of the signal when interrupted.");
     app.add_option("INPUT", options.input, "mesh to read")->required();
     app.add_option("OUTPUT", options.output, "mesh to write")->required();
     AddTarget(app, options.params);

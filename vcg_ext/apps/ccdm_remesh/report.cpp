@@ -3,14 +3,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 
 #include <nlohmann/json.hpp>
 
 #include <vcg/complex/algorithms/ccdm/target_search.h>
 
-#include "mesh_io.h"
+#include "atomic_file.h"
 
 namespace ccdm_remesh {
 namespace {
@@ -174,12 +173,7 @@ std::string WriteReport(const Options &options, const RunSummary &run)
         j["seconds"][s.first] = s.second;
     j["seconds"]["total"] = run.seconds;
     j["warnings"] = e.warnings;
-    return WriteAtomically(options.report, [&](const std::string &temporary) -> std::string {
-        std::ofstream out(temporary);
-        out << j.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-        out.close();
-        return out ? "" : "the file could not be written";
-    });
+    return WriteAtomically(options.report, j.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 void PrintTable(std::ostream &out, const RunSummary &run)

@@ -2,7 +2,9 @@
 #ifndef VCG_CCDM_REMESHING_H
 #define VCG_CCDM_REMESHING_H
 
+#include <algorithm>
 #include <functional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,7 @@ public:
     /// (DensityKind::Quality), face-edge selection (useMarkedEdges) and face selection (selectedFacesOnly).
     /// Deleted elements are skipped. The output has positions and faces only: attributes are looked up on the
     /// input with `provenance`, which is filled when the status is Done and may be null.
+    /// Where memory runs out, std::bad_alloc comes out, and output and provenance are left alone too.
     /// `progress` gets positions 0 to 100, never falling, and the phase's name; returning false cancels.
     static Report Do(const MeshType &input, MeshType &output, const Params &params, CallBackPos *progress = nullptr,
                      Provenance *provenance = nullptr)
@@ -43,15 +46,19 @@ public:
             return progress == nullptr || progress(at, phase);
         };
         ccdm::MeshTables result;
+        Provenance of;
+        Provenance *wanted = provenance == nullptr ? nullptr : &of;
         const ccdm::MeshTables tables = Import(input, params);
         Report report = params.selectedFacesOnly
-                            ? ccdm::SelectionRemesher(params, advance).Run(tables, Selected(input), result, provenance)
-                            : ccdm::TargetSearch(params, advance).Run(tables, result, provenance);
+                            ? ccdm::SelectionRemesher(params, advance).Run(tables, Selected(input), result, wanted)
+                            : ccdm::TargetSearch(params, advance).Run(tables, result, wanted);
         if (report.status != ccdm::Status::Done)
             return report;
         if (provenance != nullptr)
-            SkipDeleted(input, *provenance);
+            SkipDeleted(input, of);
         Export(result, output);
+        if (provenance != nullptr)
+            *provenance = std::move(of);
         return report;
     }
 
@@ -135,21 +142,66 @@ private:
             c.at.face = face[c.at.face];
     }
 
+    // All that takes memory comes before the mesh is touched.
     static void Export(const ccdm::MeshTables &tables, MeshType &m)
     {
+        auto vert = Like(m.vert, tables.position.size());
+        auto face = Like(m.face, tables.face.size());
+        for (std::size_t v = 0; v < vert.size(); ++v)
+            for (int k = 0; k < 3; ++k)
+                vert[v].P()[k] = static_cast<ScalarType>(tables.position[v][k]);
+        for (std::size_t f = 0; f < face.size(); ++f)
+            for (int k = 0; k < 3; ++k)
+                face[f].V(k) = &vert[tables.face[f][k]];
+        ResizeAll(m.vert_attr, std::max(m.vert.size(), vert.size()));
+        ResizeAll(m.face_attr, std::max(m.face.size(), face.size()));
+
         m.Clear();
-        auto v = Allocator<MeshType>::AddVertices(m, tables.position.size());
-        for (const ccdm::Point &p : tables.position) {
-            for (int k = 0; k < 3; ++k)
-                v->P()[k] = static_cast<ScalarType>(p[k]);
-            ++v;
+        Replace(m.vert, vert);
+        Replace(m.face, face);
+        m.vn = static_cast<int>(m.vert.size());
+        m.fn = static_cast<int>(m.face.size());
+        ResizeAll(m.vert_attr, m.vert.size());
+        ResizeAll(m.face_attr, m.face.size());
+    }
+
+    // vcg's containers of optional components, whose elements know them.
+    template <class Container, class = void>
+    struct IsOptional : std::false_type {
+    };
+    template <class Container>
+    struct IsOptional<Container, std::void_t<decltype(&Container::_updateOVP)>> : std::true_type {
+    };
+
+    // New elements, with the optional components that a container has enabled.
+    template <class Container>
+    static Container Like(const Container &old, std::size_t size)
+    {
+        if constexpr (IsOptional<Container>::value) {
+            Container c(old);
+            c.clear();
+            c.resize(size);
+            return c;
+        } else {
+            return Container(size);
         }
-        auto f = Allocator<MeshType>::AddFaces(m, tables.face.size());
-        for (const auto &corner : tables.face) {
-            for (int k = 0; k < 3; ++k)
-                f->V(k) = &m.vert[corner[k]];
-            ++f;
-        }
+    }
+
+    // The elements stay where they are.
+    template <class Container>
+    static void Replace(Container &old, Container &by)
+    {
+        old = std::move(by);
+        if constexpr (IsOptional<Container>::value)
+            old._updateOVP(old.begin(), old.end());
+    }
+
+    // Attributes that the caller has added.
+    template <class Attributes>
+    static void ResizeAll(const Attributes &attributes, std::size_t size)
+    {
+        for (const auto &a : attributes)
+            a._handle->Resize(size);
     }
 };
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -21,7 +22,7 @@ class Workers
 {
 public:
     /// `threads` of them, this one included; 0: as many as the machine has cores. Fewer if the system
-    /// refuses more.
+    /// or the memory refuses more.
     explicit Workers(int threads)
     {
         const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -31,6 +32,7 @@ public:
             for (int i = 1; i < wanted; ++i)
                 _thread.emplace_back([this, i] { Serve(i); });
         } catch (const std::system_error &) { // NOLINT(bugprone-empty-catch): fewer threads do as well
+        } catch (const std::bad_alloc &) {    // NOLINT(bugprone-empty-catch): those that run must not be left behind
         }
     }
     ~Workers()

@@ -151,11 +151,16 @@ private:
     {
         ++_runs;
         const int from = _last;
+        bool stop = false;
         Report report = Remesher(params, [&](int at, const char *phase) {
-                            return Advance(from + (to - from) * at / 100, at == 100 && to < 100 ? "measuring" : phase);
+                            stop = !Advance(from + (to - from) * at / 100, at == 100 && to < 100 ? "measuring" : phase);
+                            return !stop;
                         }).Run(input, output.mesh, _wantsProvenance ? &output.provenance : nullptr);
         for (const auto &s : report.seconds)
             AddSeconds(s.first, s.second);
+        // The remesher is done at its last step, the search is not.
+        if (stop && to < 100 && report.status == Status::Done)
+            return Fail(std::move(report), Status::Cancelled, "cancelled while measuring");
         return report;
     }
 
