@@ -172,33 +172,34 @@ def tiny():
     return moved(sphere(2), scale=1e-9)
 
 
-@case("1e-150 wide: squares of areas are below what double precision has", SPHERE, simple=True,
-      fails="the report gives every angle as 0 degrees, and faces of the input that cross")
+@case("1e-150 wide: squares of areas are below what double precision has", SPHERE, simple=True)
 def very_tiny():
     return moved(sphere(2), scale=1e-150)
 
 
-@case("1e-170 wide: squares of lengths are below what double precision has", SPHERE, simple=True,
-      fails="refused with the words 'all vertices lie at one point'")
+@case("1e-170 wide: squares of lengths are below what double precision has", SPHERE, simple=True)
 def vanishing():
     return moved(sphere(2), scale=1e-170)
 
 
-@case("numbers too small for full precision", SPHERE,
-      fails="refused with the words 'all vertices lie at one point'")
+@case("numbers too small for full precision", SPHERE)
 def denormal():
     return moved(sphere(2), scale=1e-310)
 
 
-@case("1e150 wide: squares of areas are beyond double precision", SPHERE, simple=True,
-      fails="the report gives every angle as 90 degrees")
+@case("1e150 wide: squares of areas are beyond double precision", SPHERE, simple=True)
 def huge():
     return moved(sphere(2), scale=1e150)
 
 
-@case("1e307 wide: squares of lengths are beyond double precision", refused="too large for its coordinates")
+@case("1e307 wide: squares of lengths are beyond double precision", SPHERE, simple=True)
 def very_huge():
-    return moved(sphere(2), scale=1e307)
+    return moved(sphere(2), scale=5e306)
+
+
+@case("2e308 wide: lengths are beyond double precision", refused="too large for its coordinates")
+def too_huge():
+    return moved(sphere(2), scale=1e308)
 
 
 @case("squashed to a millionth: two sheets closer than the spacing, a rim between", SPHERE)
@@ -292,8 +293,7 @@ def skewed_caps_on_creases():
 
 
 @case("edges without length along the creases of a box and at its corners", SPHERE, corners=box_corners(),
-      notes=("input faces have no area",), volume=1,
-      fails="creases with edges without length are taken for roughness; the box is rounded off")
+      notes=("input faces have no area",), volume=1)
 def zero_length_on_creases():
     points, faces = box(4, 4, 4)
     rim = [k for k, p in enumerate(points) if sum(x in (0, 1) for x in p) >= 2]
@@ -301,8 +301,7 @@ def zero_length_on_creases():
 
 
 @case("the same, each vertex four times", SPHERE, corners=box_corners(), notes=("input faces have no area",),
-      volume=1,
-      fails="creases with edges without length are taken for roughness; the box is rounded off")
+      volume=1)
 def zero_length_knots_on_creases():
     mesh = box(3, 3, 3)
     for _ in range(3):
@@ -312,8 +311,7 @@ def zero_length_knots_on_creases():
 
 
 @case("a strip without width along a crease of a box, which joins its sides", SPHERE, corners=box_corners(),
-      notes=("input faces have no area",), volume=1,
-      fails="creases along faces without area are taken for roughness; the edge is cut off")
+      notes=("input faces have no area",), volume=1)
 def zero_width_chamfer():
     points, faces = box(8, 8, 8)
     # The first two columns of one side lie at one place.
@@ -346,8 +344,7 @@ def very_thin_plate():
 
 
 @case("a plate without thickness: both sides and the rim at one height", SPHERE,
-      corners=[(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
-      fails="the rim's creases are lost, and nearly all of the plate with them")
+      corners=[(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
 def flattened_box():
     return box(10, 10, 1, (1, 1, 0))
 
@@ -456,14 +453,13 @@ def accordion():
     return grid(56, 8, lambda u, v: (abs((7 * u) % 2 - 1), v + 0.001 * u, 0))
 
 
-@case("a sheet folded flat, whose rims lie on each other: sewn to a pillow", SPHERE, notes=("were merged",))
+@case("a sheet folded flat, whose rims lie on each other", DISC)
 def folded_in_half():
     return grid(8, 8, lambda u, v: (abs(u - 0.5), v, 0))
 
 
 again(lambda: grid(12, 12, lambda u, v: (abs(u - 0.5), v, 0)), "folded_with_rounding",
-      "the same, but most of the places differ in the last digit", DISC,
-      fails="the rims of a whole sheet are sewn at the few places that agree: four loops instead of one")
+      "the same, but most of the places differ in the last digit", DISC)
 
 
 @case("a sheet rolled up 10 times, closer than the spacing", DISC)
@@ -561,8 +557,7 @@ def touching_spheres():
 
 
 @case("a sphere in a sphere, a thousandth apart", spheres(2),
-      volume=8.38, tolerance=0.15,
-      fails="one of the spheres gets 4 vertices of 150: the sampler's points on the other stand in the way")
+      volume=8.38, tolerance=0.15)
 def nested_spheres():
     return joined(sphere(3), moved(sphere(3), scale=0.999))
 
@@ -599,8 +594,7 @@ def many_components():
 
 
 again(many_components, "many_components_few_vertices", "200 components and 10 vertices to share", spheres(200),
-      vertices=10, notes=("vertices instead of 10",),
-      fails="the result fails its check when fewer vertices are asked for than the components need")
+      vertices=10, notes=("cannot do with fewer than 800",))
 
 
 # Very few faces.
@@ -671,8 +665,7 @@ def holes():
 again(holes, "holes_fixed", "a sheet with 300 holes, whose vertices stay", Topology(1 - 300, 1, 301, True),
       vertices=1500, args=("--boundary", "fixed"))
 again(holes, "holes_smooth_few", "300 holes to be rounded off with 200 vertices", Topology(1 - 300, 1, 301, True),
-      vertices=200, args=("--boundary", "smooth"), notes=("vertices instead of 200",),
-      fails="the rim around all gets 7 of 907 vertices, 300 holes of three vertices the others")
+      vertices=200, args=("--boundary", "smooth"), notes=("vertices instead of 200",))
 
 
 @case("64 rooms and 144 passages between them: genus 81", Topology(2 - 2 * 81, 1, 0, True), vertices=1500)
@@ -921,8 +914,7 @@ def comb_prism():
 
 
 @case("two combs of 306 corners", SPHERE, vertices=900, form="off", notes=("polygons that were split",),
-      simple=True, corners=[(0, -1, 0), (0, 20, 1), (151, 20, 0)],
-      fails="a polygon of more than 300 corners is split to triangles that lie over each other")
+      simple=True, corners=[(0, -1, 0), (0, 20, 1), (151, 20, 0)])
 def large_comb_prism():
     return pieces.prism(comb_outline(76))
 

@@ -76,7 +76,7 @@ def check_places(case, outcome):
     assert told["angle_min"] == pytest.approx(angles.min(), abs=1e-3)
     assert told["angle_min_avg"] == pytest.approx(angles.mean(), abs=1e-3)
     area = surface.area((outcome.points - low) / unit, faces)
-    assert surface.area(result, outcome.triangles) > 0.4 * area
+    assert surface.area(result, outcome.triangles) > 0.3 * area  # a tetrahedron in a sphere has 0.37 of its area
     spacing = (2 * area / (3 ** 0.5 * len(result))) ** 0.5
     places = (there[::max(1, len(there) // 60)] - low) / unit
     assert surface.farthest(places, result, outcome.triangles) <= 1.5 * spacing

@@ -211,26 +211,22 @@ private:
 
     bool OneComponent(int face, int other) const { return _component.empty() || _component[face] == _component[other]; }
 
-    // Whether the normals say that a keeper and a point lie on one sheet.
-    bool Compatible(const Keeper &k, const Point &normal) const
+    // Whether normals and the way from a keeper to a point say that they lie on one sheet: where it leads off the
+    // surface, those whose normals agree may be on two.
+    bool Compatible(const Keeper &k, const Point &p, const Point &normal) const
     {
         const double cosine = Dot(k.normal, normal);
-        return (_orientable ? cosine : std::abs(cosine)) > 0.2;
+        const Point way = p - k.point;
+        const double off = Dot(way, normal);
+        return (_orientable ? cosine : std::abs(cosine)) > 0.2 && off * off < 0.36 * SquaredNorm(way);
     }
 
     // Whether a keeper that is near in space is so on the surface too.
     bool OnSheet(const Keeper &k, const Point &p, int face, const Point &normal, double radius) const
     {
-        if (!OneComponent(face, k.face))
-            return false;
-        if (k.onFeature)
-            return true;
-        // Faces whose normals differ may be on one sheet all the same, as in a crumpled spot; and where the way to
-        // the keeper leads off the surface, those whose normals agree may be on two.
-        const Point way = p - k.point;
-        const double off = Dot(way, normal);
-        return (Compatible(k, normal) && off * off < 0.25 * SquaredNorm(way)) ||
-               _surface.Joined(face, k.face, p, radius, MostJoined);
+        // Those that are not compatible may be on one sheet all the same, as in a crumpled spot.
+        return OneComponent(face, k.face) &&
+               (k.onFeature || Compatible(k, p, normal) || _surface.Joined(face, k.face, p, radius, MostJoined));
     }
 
     bool Free(const PointBuckets &buckets, const Point &p, int face, const Point &normal, double radius, double spacing)
@@ -358,7 +354,8 @@ private:
         const Point end = start + direction * length;
         bool taken = false;
         buckets.Near(end, 0.3 * length, length, [&](int i, double) {
-            taken = !_keeper[i].onFeature && OneComponent(from.face, _keeper[i].face) && Compatible(_keeper[i], normal);
+            taken = !_keeper[i].onFeature && OneComponent(from.face, _keeper[i].face) &&
+                    Compatible(_keeper[i], end, normal);
             return !taken;
         });
         if (taken)
