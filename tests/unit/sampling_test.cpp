@@ -76,8 +76,10 @@ TEST(SampleCurvesWithin, KeepsTheBudgetWhereTheCurvesCan)
     // Closed curves need three each, whatever is asked.
     const Model part = meshes::MakeModel(shapes::CadPart(), 500, 40);
     const std::vector<CurveSample> least = SampleCurvesWithin(part.surface, part.features, part.density, 0);
-    EXPECT_EQ(least.size(), SampleCurves(part.surface, part.features, part.density, 1e9).size());
-    EXPECT_GT(least.size(), 0U);
+    const std::size_t fewest = SampleCurves(part.surface, part.features, part.density, 1e9).size();
+    EXPECT_GT(fewest, 0U);
+    EXPECT_GE(least.size(), fewest);
+    EXPECT_LE(least.size(), fewest + fewest / 5);
 }
 
 TEST(SampleFaces, DrawsInProportionToDensityTimesArea)

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/disjoint_sets.h>
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/sampling.h>
 

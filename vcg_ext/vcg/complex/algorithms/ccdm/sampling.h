@@ -103,10 +103,9 @@ inline std::vector<CurveSample> SampleCurvesWithin(const ReferenceSurface &surfa
     if (static_cast<int>(samples.size()) <= most)
         return samples;
     const std::size_t fewest = SampleCurves(surface, features, density, 1e9).size();
-    // What cannot be within it anyway is not to starve the long curves as well.
-    const double widest = static_cast<int>(fewest) > most ? 1.5 : 1e9;
-    for (double stretch = 1.05; static_cast<int>(samples.size()) > most && samples.size() > fewest && stretch < widest;
-         stretch *= 1.05)
+    // What the curves cannot keep to anyway is passed by a fifth more, or the long ones would starve as well.
+    const std::size_t limit = static_cast<int>(fewest) <= most ? static_cast<std::size_t>(most) : fewest + fewest / 5;
+    for (double stretch = 1.05; samples.size() > limit; stretch *= 1.05)
         samples = SampleCurves(surface, features, density, stretch);
     return samples;
 }
