@@ -20,6 +20,7 @@ usage: ./run.sh VERB
           random and spoilt meshes and files, for that long: what is found lies in build/fuzz/findings
   coverage
           the lines of vcg_ext that the tests reach: build/coverage/lines.txt
+  mutants plants faults in the engine, one at a time, and counts those that the tests notice
   package the same set-up, then the Debian packages and Python wheels, in build/packages
   screenshots
           the pictures of MeshLab's window in filter_ccdm/pictures, taken anew
@@ -229,11 +230,18 @@ coverage() {
         { grep -E 'error|FAILED' -A5 build/coverage/build.log; fail "the build failed"; }
     say "tests"
     find build/coverage -name '*.gcda' -delete
-    ctest --test-dir build/coverage -j2 -L 'parts|remesher|command_line' >build/coverage/ctest.log ||
+    { ctest --test-dir build/coverage -j2 -L 'parts|remesher' && ctest --test-dir build/coverage -R 'pytest_(cli|nasty)'; } \
+        >build/coverage/ctest.log ||
         { tail -20 build/coverage/ctest.log; fail "a test failed"; }
     gcovr -r . --filter 'vcg_ext/vcg/' --exclude-unreachable-branches --exclude-throw-branches \
         -o build/coverage/lines.txt build/coverage
     tail -4 build/coverage/lines.txt
+}
+
+mutants() {
+    install_packages "${build_packages[@]}"
+    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    /usr/bin/python3 tests/mutants/mutants.py build/mutants ".sdk/meshlab-${sdks[0]%:*}/vcglib" "$@"
 }
 
 screenshots() {
@@ -265,6 +273,7 @@ build) build ;;
 bench) bench "${@:2}" ;;
 fuzz) fuzz "${2:-}" ;;
 coverage) coverage ;;
+mutants) mutants "${@:2}" ;;
 package) package ;;
 screenshots) screenshots ;;
 clean)

@@ -252,6 +252,27 @@ def test_bad_input_is_refused_with_the_reason(name):
     refused(ms, "CCDM remeshing was not done: .*" + reason, vertex_count=50)
 
 
+def test_what_is_no_surface_is_cut_apart_on_request():
+    points = numpy.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], float)
+    faces = numpy.array([(0, 1, 2), (1, 0, 3), (0, 1, 4)])
+    refused(set_of(points, faces), "1 edge has more than two faces: vertices 0-1", vertex_count=60)
+    ms = set_of(points, faces)
+    out = ms.apply_filter(FILTER, vertex_count=60, repair="Cut apart")
+    assert out["topology_preserved"] and out["components"] == 3 and out["vertex_number"] == 60
+    assert out["euler_characteristic_before"] == out["euler_characteristic_after"] == 3
+
+
+def test_soup_is_sewn_and_crossings_are_counted():
+    points, faces = content(load("cad_part"))
+    ms = set_of(points[faces].reshape(-1, 3), numpy.arange(3 * len(faces)).reshape(-1, 3))
+    out = ms.apply_filter(FILTER, vertex_count=2000)
+    assert out["topology_preserved"] and out["components"] == 1 and out["boundary_loops"] == 0
+    assert out["crossing_pairs_before"] == out["crossing_pairs_after"] == 0
+    out = load("klein_bottle").apply_filter(FILTER, vertex_count=2000)
+    assert out["crossing_pairs_before"] > 10 and out["crossing_pairs_after"] > 10
+    assert out["faces_in_new_crossings"] == 0
+
+
 def test_bad_density_is_refused_with_the_count():
     points, faces = content(load("sphere"))
     quality = numpy.ones(len(points))
