@@ -17,7 +17,8 @@ namespace filter_ccdm {
 Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
     : report(std::move(r)), seconds(time), diagonal(Diagonal(input)),
       before(vcg::ccdm::AsMended(Quality::Measure(input), report)), after(Quality::Measure(result)),
-      distance(Quality::Distance(input, result)), selfIntersections(Quality::CountSelfIntersections(input, result))
+      distance(Quality::Distance(input, result)),
+      selfIntersections(Quality::CountSelfIntersections(input, result, report.defects.mergedVertices > 0))
 {
 }
 

@@ -114,7 +114,7 @@ void Remesh(const Options &options, RunSummary &run)
         run.before = vcg::ccdm::AsMended(Quality::Measure(input), run.engine);
         run.after = Quality::Measure(result);
         run.distance = Quality::Distance(input, result);
-        run.selfIntersections = Quality::CountSelfIntersections(input, result);
+        run.selfIntersections = Quality::CountSelfIntersections(input, result, run.engine.defects.mergedVertices > 0);
         run.engine.seconds.emplace_back("measuring", SecondsSince(written));
     }
     end(Done, "");

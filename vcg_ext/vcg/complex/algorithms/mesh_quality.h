@@ -95,11 +95,14 @@ public:
         return d;
     }
 
-    /// Exact, but for what is near in `newFaces`.
+    /// Exact, but for what is near in `newFaces`. `sewn`: vertices of the original at one position are one.
     template <class OtherMesh>
-    static SelfIntersectionCounts CountSelfIntersections(const MeshType &original, const OtherMesh &result)
+    static SelfIntersectionCounts CountSelfIntersections(const MeshType &original, const OtherMesh &result,
+                                                         bool sewn = false)
     {
         TriangleSoup a = TriangleSoup::From(original), b = TriangleSoup::From(result);
+        if (sewn)
+            Sew(a);
         const double scale = UnitFrame(a).Factor();
         a = Scaled(std::move(a), scale);
         b = Scaled(std::move(b), scale);
@@ -138,6 +141,19 @@ private:
         const auto repeats = [](const Face &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; };
         s.face.erase(std::remove_if(s.face.begin(), s.face.end(), repeats), s.face.end());
         return s;
+    }
+
+    static void Sew(TriangleSoup &s)
+    {
+        std::vector<int> order(s.point.size()), first(s.point.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(),
+                  [&](int x, int y) { return s.point[x] != s.point[y] ? s.point[x] < s.point[y] : x < y; });
+        for (std::size_t k = 0; k < order.size(); ++k)
+            first[order[k]] = k > 0 && s.point[order[k]] == s.point[order[k - 1]] ? first[order[k - 1]] : order[k];
+        for (Face &f : s.face)
+            for (int &v : f)
+                v = first[v];
     }
 
     // By a power of two: squares of the mesh's own lengths might be out of range.
