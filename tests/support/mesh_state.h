@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ std::string Bytes(const MeshType &m)
 {
     const auto raw = [](const auto &elements) {
         const auto *data = elements.data();
-        std::string bytes(reinterpret_cast<const char *>(&data), sizeof(data));
+        std::string bytes = std::to_string(reinterpret_cast<std::uintptr_t>(data));
         return bytes.append(reinterpret_cast<const char *>(data), elements.size() * sizeof(*data));
     };
     return raw(m.vert) + raw(m.face) + std::to_string(m.VN()) + " " + std::to_string(m.FN());
