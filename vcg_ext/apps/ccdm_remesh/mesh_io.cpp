@@ -45,7 +45,7 @@ std::string Parse(const std::string &extension, const std::string &content, Poly
 int Fill(const PolygonSoup &soup, Mesh &mesh)
 {
     std::vector<std::array<int, 3>> triangle;
-    std::vector<std::array<double, 3>> corner;
+    std::vector<vcg::Point3d> corner;
     int fromPolygons = 0;
     for (std::size_t k = 0; k < soup.PolygonCount(); ++k) {
         const int *c = soup.corner.data() + soup.Begin(k), *end = soup.corner.data() + soup.end[k];
@@ -63,7 +63,7 @@ int Fill(const PolygonSoup &soup, Mesh &mesh)
     }
     auto v = vcg::tri::Allocator<Mesh>::AddVertices(mesh, soup.point.size());
     for (std::size_t k = 0; k < soup.point.size(); ++k, ++v) {
-        v->P() = vcg::Point3d(soup.point[k][0], soup.point[k][1], soup.point[k][2]);
+        v->P() = soup.point[k];
         if (!soup.quality.empty())
             v->Q() = static_cast<float>(soup.quality[k]);
     }

@@ -40,9 +40,9 @@ std::string ReadObj(const std::string &content, PolygonSoup &soup)
         TextCursor words(line.c_str(), line.c_str() + line.size());
         const std::string keyword = words.Word();
         if (keyword == "v") {
-            std::array<double, 3> p;
-            for (double &x : p)
-                if (!words.Number(x))
+            vcg::Point3d p;
+            for (int k = 0; k < 3; ++k)
+                if (!words.Number(p[k]))
                     return fault("has fewer than three coordinates");
             if (soup.point.size() == INT_MAX)
                 return "it has more vertices than can be numbered";

@@ -51,7 +51,7 @@ std::string ReadOff(const std::string &content, PolygonSoup &soup)
         return "the header promises more than the file holds";
     soup.point.reserve(static_cast<std::size_t>(vertices));
     for (int v = 0; v < vertices; ++v) {
-        std::array<double, 3> p;
+        vcg::Point3d p;
         bool found = NextData(lines, line);
         words = CursorOf(line);
         for (int k = 0; k < 3 && found; ++k)

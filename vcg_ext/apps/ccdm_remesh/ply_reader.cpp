@@ -259,7 +259,7 @@ private:
 
     bool ReadElement(const Element &e, Body &body)
     {
-        std::array<double, 3> point = {0, 0, 0};
+        vcg::Point3d point(0, 0, 0);
         for (const Property &p : e.property) {
             if (p.count != Type::None) {
                 if (!ReadList(p, body))

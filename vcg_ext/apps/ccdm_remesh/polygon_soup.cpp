@@ -8,22 +8,7 @@
 namespace ccdm_remesh {
 namespace {
 
-using Point = std::array<double, 3>;
-
-Point Minus(const Point &a, const Point &b)
-{
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point Cross(const Point &a, const Point &b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double Dot(const Point &a, const Point &b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using Point = vcg::Point3d;
 
 // A polygon while ears are cut off it.
 class EarClipper
@@ -34,9 +19,7 @@ public:
         std::iota(_left.begin(), _left.end(), 0);
         // Newell: the sum over a fan, whichever way that folds.
         for (std::size_t k = 1; k + 1 < corner.size(); ++k) {
-            const Point n = Cross(Minus(corner[k], corner[0]), Minus(corner[k + 1], corner[0]));
-            for (int i = 0; i < 3; ++i)
-                _normal[i] += n[i];
+            _normal += (corner[k] - corner[0]) ^ (corner[k + 1] - corner[0]);
         }
     }
 
@@ -70,7 +53,7 @@ private:
     const std::vector<Point> &_corner;
     std::vector<int> _left;
     std::vector<double> _angle; // of the triangles at what is left, as Quality() has them
-    Point _normal = {0, 0, 0};
+    Point _normal = Point(0, 0, 0);
 
     std::size_t Size() const { return _left.size(); }
     int At(std::size_t k) const { return _left[k % Size()]; }
@@ -85,10 +68,7 @@ private:
             _angle[k] = Quality(k);
     }
 
-    bool TurnsLeft(const Point &a, const Point &b, const Point &c) const
-    {
-        return Dot(Cross(Minus(b, a), Minus(c, a)), _normal) > 0;
-    }
+    bool TurnsLeft(const Point &a, const Point &b, const Point &c) const { return ((b - a) ^ (c - a)) * _normal > 0; }
 
     bool IsEar(std::size_t k) const
     {
@@ -107,8 +87,8 @@ private:
     {
         const Point &a = _corner[At(k + Size() - 1)], &b = _corner[At(k)], &c = _corner[At(k + 1)];
         const auto angle = [](const Point &p, const Point &q, const Point &r) {
-            const Point u = Minus(q, p), v = Minus(r, p), n = Cross(u, v);
-            return std::atan2(std::sqrt(Dot(n, n)), Dot(u, v));
+            const Point u = q - p, v = r - p;
+            return std::atan2((u ^ v).Norm(), u * v);
         };
         return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
     }
@@ -128,7 +108,7 @@ std::string CheckIndices(const PolygonSoup &soup)
     return "";
 }
 
-std::vector<std::array<int, 3>> SplitPolygon(const std::vector<std::array<double, 3>> &corner)
+std::vector<std::array<int, 3>> SplitPolygon(const std::vector<vcg::Point3d> &corner)
 {
     // Cutting ears takes quadratic time.
     constexpr std::size_t mostForEars = 20000;

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include <vcg/space/point3.h>
+
 namespace ccdm_remesh {
 
 /// What a mesh file holds, before anything is made of it.
 struct PolygonSoup {
-    std::vector<std::array<double, 3>> point;
+    std::vector<vcg::Point3d> point;
     std::vector<double> quality;  ///< one for each point, or empty
     std::vector<int> corner;      ///< point indices of the polygons, one polygon after the other
     std::vector<std::size_t> end; ///< of each polygon in `corner`
@@ -35,7 +37,7 @@ std::string CheckIndices(const PolygonSoup &soup);
 
 /// Splits a polygon, given by its corners' points, into triangles of places in it: ears are cut off, the one with
 /// the largest smallest angle first, so that a polygon which is not convex is covered just once.
-std::vector<std::array<int, 3>> SplitPolygon(const std::vector<std::array<double, 3>> &corner);
+std::vector<std::array<int, 3>> SplitPolygon(const std::vector<vcg::Point3d> &corner);
 
 } // namespace ccdm_remesh
 

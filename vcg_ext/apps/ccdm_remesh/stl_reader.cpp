@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t HeaderSize = 84, FacetSize = 50;
 
-void AddCorner(PolygonSoup &soup, const std::array<double, 3> &p)
+void AddCorner(PolygonSoup &soup, const vcg::Point3d &p)
 {
     soup.corner.push_back(static_cast<int>(soup.point.size()));
     soup.point.push_back(p);
@@ -42,9 +42,9 @@ std::string ReadText(const std::string &content, PolygonSoup &soup)
         const std::string word = words.Word();
         facets += word == "facet";
         if (word == "vertex") {
-            std::array<double, 3> p;
-            for (double &x : p)
-                if (!words.Number(x))
+            vcg::Point3d p;
+            for (int k = 0; k < 3; ++k)
+                if (!words.Number(p[k]))
                     return "vertex " + std::to_string(soup.point.size()) + " has a coordinate that is not a number";
             AddCorner(soup, p);
         } else if (word == "endloop") {

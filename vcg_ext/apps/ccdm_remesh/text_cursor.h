@@ -76,7 +76,7 @@ private:
     }
 };
 
-/// The lines of a text: without their ends, and without what follows a '#' if that begins a comment.
+/// The lines of a text, without their ends.
 class TextLines
 {
 public:

@@ -135,11 +135,12 @@ private:
     using Vector = TriangleSoup::Vector;
     using Face = TriangleSoup::Face;
 
+    static bool Repeats(const Face &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
+
     // Without the faces that name a vertex twice, which are no part of a surface.
     static TriangleSoup Solid(TriangleSoup s)
     {
-        const auto repeats = [](const Face &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; };
-        s.face.erase(std::remove_if(s.face.begin(), s.face.end(), repeats), s.face.end());
+        s.face.erase(std::remove_if(s.face.begin(), s.face.end(), Repeats), s.face.end());
         return s;
     }
 
@@ -228,7 +229,6 @@ private:
             MeasureFaces();
         }
 
-        static bool Repeats(const Face &f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
         // Height over longest edge.
         static double Flatness(const Vector &a, const Vector &b, const Vector &c)
         {

@@ -102,7 +102,7 @@ public:
     /// Those flips of the last run that were not inside one patch.
     const std::vector<Flipped> &Crossing() const { return _crossing; }
 
-    /// Whether a run has ended at its bound.
+    /// Whether any run has ended at its bound.
     bool Bounded() const { return _bounded; }
 
 private:

@@ -37,6 +37,11 @@ struct FeatureCurve {
         const double l = arc[segment + 1] - arc[segment];
         return l > 0 ? std::clamp((s - arc[segment]) / l, 0.0, 1.0) : 0.0;
     }
+    /// Length of a segment in units of the spacing there, which is given at the reference vertices.
+    double InSpacings(int segment, const std::vector<double> &spacing) const
+    {
+        return 2 * (arc[segment + 1] - arc[segment]) / (spacing[vertex[segment]] + spacing[vertex[segment + 1]]);
+    }
     /// Arc length s brought onto the curve: around a closed one, to the nearer end of another.
     double OnCurve(double s) const
     {

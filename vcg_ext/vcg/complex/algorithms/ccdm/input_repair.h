@@ -28,7 +28,6 @@ public:
     int mergedVertices = 0;
     int cutEdges = 0;
     int cutVertices = 0;
-    bool changed = false;
 
     enum class Step {
         Sew,      ///< pairs of boundaries at equal positions
@@ -51,8 +50,9 @@ public:
             Contract();
             break;
         }
-        changed = droppedFaces + mergedVertices + cutVertices > 0;
     }
+
+    bool Changed() const { return droppedFaces + mergedVertices + cutVertices > 0; }
 
 private:
     struct Use {
@@ -265,7 +265,7 @@ public:
         // What must stay is part of a larger mesh, which is not taken in hand.
         if (!input.locked.empty())
             return;
-        if (!_prepared->refusal.empty() || MayBeSewn())
+        if (!_prepared->refusal.empty() || (_prepared->topology.boundaryLoops > 0 && MayBeSewn()))
             Try(InputRepair::Step::Sew, workers);
         if (!_prepared->refusal.empty() && kind == RepairKind::Split)
             Try(InputRepair::Step::CutApart, workers);
@@ -312,7 +312,7 @@ private:
     void Try(InputRepair::Step step, Workers &workers)
     {
         auto repaired = std::make_unique<InputRepair>(Tables(), step);
-        if (!repaired->changed)
+        if (!repaired->Changed())
             return;
         auto again = std::make_unique<InputMesh>(repaired->mesh, workers);
         if (!again->refusal.empty() ||

@@ -105,7 +105,7 @@ private:
     void Flip()
     {
         _report.flips += _flipper.Run(_remesh);
-        _report.flipsBounded = _report.flipsBounded || _flipper.Bounded();
+        _report.flipsBounded = _flipper.Bounded();
         _schedule.Changed(_flipper.Crossing());
     }
 

@@ -130,10 +130,7 @@ private:
                 params.optimizer = OptimizerKind::Annealing;
                 params.sampler = SamplerKind::Random;
             } else if (got < MostForGrowth * _report.inputTopology.components && growths++ < MostGrowths) {
-                const double before = params.vertexCount;
-                params.vertexCount = got + got / 2;
-                for (double &h : model.density.spacing)
-                    h *= std::sqrt(before / params.vertexCount);
+                TakeMore(got + got / 2, model, params);
                 _report.warnings.push_back("more vertices were taken, as an attempt with " + std::to_string(got) +
                                            " failed: " + _report.message);
             } else {
@@ -143,6 +140,14 @@ private:
         }
     }
 
+    static void TakeMore(int vertices, Model &model, Params &params)
+    {
+        const double before = params.vertexCount;
+        params.vertexCount = vertices;
+        for (double &h : model.density.spacing)
+            h *= std::sqrt(before / vertices);
+    }
+
     // A closed component takes four vertices, an open one three.
     void TakeEnoughForComponents(Model &model, Params &params)
     {
@@ -150,9 +155,7 @@ private:
         const int least = (t.boundaryLoops > 0 ? 3 : 4) * t.components;
         if (params.vertexCount >= least)
             return;
-        for (double &h : model.density.spacing)
-            h *= std::sqrt(static_cast<double>(params.vertexCount) / least);
-        params.vertexCount = least;
+        TakeMore(least, model, params);
         _report.warnings.push_back("more vertices were taken, as " + Counted(t.components, "component", "components") +
                                    " cannot do with fewer than " + std::to_string(least));
     }
@@ -425,8 +428,7 @@ private:
                 return 0;
             double length = 0;
             for (int k = 0; k < c.Segments(); ++k)
-                length += 2 * (c.arc[k + 1] - c.arc[k]) /
-                          (model.density.spacing[c.vertex[k]] + model.density.spacing[c.vertex[k + 1]]);
+                length += c.InSpacings(k, model.density.spacing);
             while (levels > 0 && length < std::ldexp(1.5, levels))
                 --levels;
         }

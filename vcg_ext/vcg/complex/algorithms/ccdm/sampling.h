@@ -42,10 +42,8 @@ inline void SampleCurve(const DensityField &density, const FeatureCurve &c, int 
                         std::vector<CurveSample> &out)
 {
     std::vector<double> measure(c.vertex.size(), 0);
-    for (int k = 0; k < c.Segments(); ++k) {
-        const double h = 0.5 * (density.spacing[c.vertex[k]] + density.spacing[c.vertex[k + 1]]);
-        measure[k + 1] = measure[k] + (c.arc[k + 1] - c.arc[k]) / h;
-    }
+    for (int k = 0; k < c.Segments(); ++k)
+        measure[k + 1] = measure[k] + c.InSpacings(k, density.spacing);
     const double total = measure.back();
     const int segments = std::max(fewest, static_cast<int>(std::lround(total / stretch)));
     int k = 0;
@@ -66,7 +64,7 @@ inline void WidenForCurves(const FeatureGraph &features, int vertices, std::vect
     double wanted = 0;
     for (const FeatureCurve &c : features.curve)
         for (int k = 0; k < c.Segments(); ++k)
-            wanted += 2 * (c.arc[k + 1] - c.arc[k]) / (spacing[c.vertex[k]] + spacing[c.vertex[k + 1]]);
+            wanted += c.InSpacings(k, spacing);
     const double factor = wanted / (4.0 * vertices);
     if (factor > 1)
         for (double &h : spacing)

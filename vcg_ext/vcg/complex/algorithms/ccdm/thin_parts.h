@@ -385,7 +385,7 @@ private:
             const FeatureCurve &c = _model.features.curve[i];
             std::vector<double> measure(c.vertex.size(), 0);
             for (int k = 0; k < c.Segments(); ++k)
-                measure[k + 1] = measure[k] + 2 * (c.arc[k + 1] - c.arc[k]) / (h[c.vertex[k]] + h[c.vertex[k + 1]]);
+                measure[k + 1] = measure[k] + c.InSpacings(k, h);
             const int count = std::max(1, static_cast<int>(std::min(2 * measure.back(), 1.0 * MostSamples)));
             int k = 0;
             for (int j = 0; j < count; ++j) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <vcg/space/point3.h>
@@ -124,11 +125,11 @@ public:
         if (n > 0)
             Split(soup, centre, order, 0, static_cast<int>(n));
         _corner.reserve(n);
-        _face = order;
         for (const int t : order) {
             const auto &f = soup.face[t];
             _corner.push_back({soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]});
         }
+        _face = std::move(order);
     }
 
     /// Squared distance of p from the triangles; `hint` is the number of a triangle likely to be near
