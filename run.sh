@@ -94,6 +94,11 @@ fetch_sdk() {
     rm -rf "$state"
 }
 
+# Enough for what needs vcglib only.
+fetch_first_sdk() {
+    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+}
+
 fetch_sdks() {
     local entry
     for entry in "${sdks[@]}"; do
@@ -196,7 +201,7 @@ fuzz() {
     local seconds=${1:-} target
     case "$seconds" in '' | *[!0-9]*) usage; exit 2 ;; esac
     install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
-    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    fetch_first_sdk
     say "building the fuzzers"
     mkdir -p build/fuzz/findings
     CXX=clang++ cmake -S . -B build/fuzz -G Ninja -DCMAKE_BUILD_TYPE=None -DCCDM_FUZZ=ON -DCCDM_BUILD_PLUGIN=OFF \
@@ -221,7 +226,7 @@ fuzz() {
 
 coverage() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" gcovr
-    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    fetch_first_sdk
     say "building with counters"
     mkdir -p build/coverage
     cmake -S . -B build/coverage -G Ninja -DCMAKE_BUILD_TYPE=None -DCCDM_COVERAGE=ON -DCCDM_BUILD_PLUGIN=OFF \
@@ -240,7 +245,7 @@ coverage() {
 
 mutants() {
     install_packages "${build_packages[@]}"
-    fetch_sdk "${sdks[0]%:*}" "${sdks[0]#*:}" || fail "MeshLab's sources are needed"
+    fetch_first_sdk
     /usr/bin/python3 tests/mutants/mutants.py build/mutants ".sdk/meshlab-${sdks[0]%:*}/vcglib" "$@"
 }
 

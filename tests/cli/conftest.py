@@ -33,3 +33,17 @@ def measure(tmp_path_factory):
     program = str(tmp_path_factory.mktemp("measure") / "measure")
     subprocess.run(["g++", "-std=c++17", "-O2", "-DNDEBUG", "-DNO_CGAL", source, "-o", program, "-pthread"], check=True)
     return program
+
+
+@pytest.fixture
+def tiny_file_system(tmp_path):
+    """A folder with room for 16 kilobytes."""
+    if os.geteuid() != 0:
+        pytest.skip("a file system of a few kilobytes needs root")
+    folder = tmp_path / "full"
+    folder.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "tmpfs", folder], check=False,
+                      capture_output=True).returncode != 0:
+        pytest.skip("no file system can be mounted here")
+    yield folder
+    subprocess.run(["umount", folder], check=True)

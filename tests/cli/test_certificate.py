@@ -5,9 +5,10 @@ import json
 import os
 import subprocess
 
-import mesh_figures
+import numpy
 import plyfile
 import pytest
+import surface
 
 SAMPLES = sorted(glob.glob(os.path.join(os.environ.get("CCDM_SAMPLES", ""), "*.ply")))
 MODELS = sorted(glob.glob(os.path.join(os.environ.get("CCDM_SHARED", ""), "meshes", "*.ply")))
@@ -27,25 +28,24 @@ def test_report_tells_what_is_in_the_file(remesh, tmp_path, path):
     assert run.returncode == 0, run.stderr
     told = json.loads(report.read_text(encoding="utf-8"))
     content = plyfile.read_ply(out)
-    points = [(v["x"], v["y"], v["z"]) for v in content["vertex"]]
-    faces = [f["vertex_indices"] for f in content["face"]]
-    found = mesh_figures.topology(faces)
-    assert not found["fault"]
-    for key in ("vertices", "faces", "euler", "components", "boundary_loops", "orientable"):
-        assert told["result"][key] == found[key], key
-    for key in ("euler", "components", "boundary_loops", "orientable"):
-        assert told["input"][key] == found[key], key
+    points = numpy.array([(v["x"], v["y"], v["z"]) for v in content["vertex"]])
+    faces = [tuple(f["vertex_indices"]) for f in content["face"]]
+    found = surface.Surface(faces, len(points))
+    assert not found.fault
+    for side in ("input", "result"):
+        assert tuple(told[side][key] for key in ("euler", "components", "boundary_loops", "orientable")) == found.topology
+    assert (told["result"]["vertices"], told["result"]["faces"]) == (len(points), len(faces))
     assert told["topology_preserved"] and len(points) == 1500 + told["result"]["extra_vertices"]
-    angles = mesh_figures.corner_angles(points, faces)
+    angles = surface.corner_angles(points, faces)
     smallest = angles.min(axis=1)
     assert told["result"]["angle_min_avg"] == near(smallest.mean())
     assert told["result"]["angle_min"] == near(smallest.min()) == near(told["smallest_angle"]["reached"])
     assert told["result"]["pct_lt30"] == near(100 * (angles < 30).mean())
     target = told["smallest_angle"]["target"]
     assert (smallest < target - 1e-6).sum() <= told["smallest_angle"]["below"] <= (smallest < target + 1e-6).sum()
-    ratios = mesh_figures.aspect_ratios(points, faces)
+    ratios = surface.aspect_ratios(points, faces)
     assert told["result"]["q_fb99_avg"] == near(ratios.mean()) and told["result"]["q_fb99_min"] == near(ratios.min())
-    assert told["result"]["pct_valence6"] == near(mesh_figures.percent_valence_6(faces, found["rim"]))
+    assert told["result"]["pct_valence6"] == near(found.percent_valence_6())
 
 
 @pytest.mark.parametrize("path", SMALL, ids=os.path.basename)

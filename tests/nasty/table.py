@@ -16,7 +16,7 @@ HEAD = """\
 # Nasty inputs
 
 Whatever comes in, a proven mesh or a clear refusal comes out. `nasty_meshes.py` makes the inputs, `test_nasty.py`
-puts each through the command line and checks the written file with code of its own (`surface.py`): manifold, of the
+puts each through the command line and checks the written file with code of its own (`../support/surface.py`): manifold, of the
 topology that is known from how the input was made, the vertices that were asked for and those reported as extra,
 finite, within the input's bounding box, the corners in place, no part of the input farther away than one and a half
 spacings, three tenths of its area or more, and the same as the report says. `table.py` writes this page.

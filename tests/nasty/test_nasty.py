@@ -72,7 +72,7 @@ def check_places(case, outcome):
         assert np.linalg.norm(result - (corner - low) / unit, axis=1).min() < 1e-6, corner
     if case.volume:
         assert surface.volume(result, outcome.triangles) * unit ** 3 == pytest.approx(case.volume, rel=case.tolerance)
-    told, angles = outcome.report["result"], surface.smallest_angles(result, outcome.triangles)
+    told, angles = outcome.report["result"], surface.corner_angles(result, outcome.triangles).min(axis=1)
     assert told["angle_min"] == pytest.approx(angles.min(), abs=1e-3)
     assert told["angle_min_avg"] == pytest.approx(angles.mean(), abs=1e-3)
     area = surface.area((outcome.points - low) / unit, faces)

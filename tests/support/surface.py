@@ -60,16 +60,7 @@ class Surface:
         return mates
 
     def count_components(self):
-        mates, seen, components = self.mates(), set(), 0
-        for start in range(len(self.faces)):
-            components += start not in seen
-            stack = [start]
-            while stack:
-                t = stack.pop()
-                if t not in seen:
-                    seen.add(t)
-                    stack += [m for m, _ in mates[t]]
-        return components
+        return count_connected({t: [m for m, _ in mates] for t, mates in enumerate(self.mates())})
 
     def is_orientable(self):
         """Whether the faces can all be turned to agree."""
@@ -87,21 +78,36 @@ class Surface:
         return True
 
     def count_loops(self):
-        follow = defaultdict(list)
-        for (a, b), side in self.sides.items():
-            if len(side) == 1:
-                follow[a].append(b)
-                follow[b].append(a)
-        seen, loops = set(), 0
-        for start in follow:
-            loops += start not in seen
-            stack = [start]
-            while stack:
-                v = stack.pop()
-                if v not in seen:
-                    seen.add(v)
-                    stack += follow[v]
-        return loops
+        return count_connected(neighbours(edge for edge, side in self.sides.items() if len(side) == 1))
+
+    def percent_valence_6(self):
+        """Of the vertices off the boundary."""
+        rim = {v for edge, side in self.sides.items() if len(side) == 1 for v in edge}
+        inner = [len(around) for v, around in neighbours(self.sides).items() if v not in rim]
+        return 100 * inner.count(6) / len(inner) if inner else 0
+
+
+def neighbours(edges):
+    """Of each vertex."""
+    found = defaultdict(list)
+    for a, b in edges:
+        found[a].append(b)
+        found[b].append(a)
+    return found
+
+
+def count_connected(follow):
+    """Number of connected parts of a graph that is given by each member's neighbours."""
+    seen, parts = set(), 0
+    for start in follow:
+        parts += start not in seen
+        stack = [start]
+        while stack:
+            v = stack.pop()
+            if v not in seen:
+                seen.add(v)
+                stack += follow[v]
+    return parts
 
 
 def cut_apart(faces):
@@ -130,14 +136,22 @@ def volume(points, triangles):
     return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
 
 
-def smallest_angles(points, triangles):
-    """Of each triangle, in degrees."""
+def corner_angles(points, triangles):
+    """In degrees, a row of three for each triangle."""
     corner = [points[[t[k] for t in triangles]] for k in range(3)]
     angles = []
     for k in range(3):
         u, v = (corner[(k + i) % 3] - corner[k] for i in (1, 2))
         angles.append(np.arctan2(np.linalg.norm(np.cross(u, v), axis=1), np.einsum("ij,ij->i", u, v)))
-    return np.degrees(np.min(angles, axis=0))
+    return np.degrees(angles).T
+
+
+def aspect_ratios(points, triangles):
+    """2 sqrt(3) area / (half perimeter * longest edge)."""
+    p = points[np.array(triangles)]
+    sides = np.linalg.norm(p - np.roll(p, 1, axis=1), axis=2)
+    doubled = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+    return 2 * 3 ** 0.5 * doubled / (sides.sum(axis=1) * sides.max(axis=1))
 
 
 def area(points, faces):
