@@ -16,10 +16,11 @@ HEAD = """\
 # Nasty inputs
 
 Whatever comes in, a proven mesh or a clear refusal comes out. `nasty_meshes.py` makes the inputs, `test_nasty.py`
-puts each through the command line and checks the written file with code of its own (`../support/surface.py`): manifold, of the
-topology that is known from how the input was made, the vertices that were asked for and those reported as extra,
-finite, within the input's bounding box, the corners in place, no part of the input farther away than one and a half
-spacings, three tenths of its area or more, and the same as the report says. `table.py` writes this page.
+puts each through the command line and checks the written file with code of its own (`../support/surface.py`):
+manifold, of the topology that is known from how the input was made, the vertices that were asked for and those
+reported as extra, finite, within the input's bounding box, the corners in place, no part of the input farther away
+than one and a half spacings, three tenths of its area or more, and the same as the report says. `table.py` writes
+this page.
 
 Every run has `--global-iterations 4`, so that the angles are not the best there are, and few vertices. *faces*: of
 the input as it is written; *asked*, *vertices*: of the result; *angles*: the average and the least of the smallest
