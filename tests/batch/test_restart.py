@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run that is started again, or was killed: what is finished stays, nothing partial is seen."""
 
+import contextlib
 import json
 import os
 import signal
@@ -120,7 +121,17 @@ def ended(process):
 
 def sleepers(pid):
     """The hanging engines below a process."""
-    return [p for p in psutil.Process(pid).children(recursive=True) if p.name() == "sleep"]
+    return below(pid, lambda process: process.name() == "sleep")
+
+
+def below(pid, wanted):
+    """The processes below one for which `wanted` holds; any of them may end while it is looked at."""
+    found = []
+    for process in psutil.Process(pid).children(recursive=True):
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if wanted(process):
+                found.append(process)
+    return found
 
 
 def test_interrupted(batch, stub):

@@ -9,10 +9,9 @@ import threading
 import time
 
 import plyfile
-import psutil
 
 from conftest import local_cluster
-from test_restart import ended, sleepers, statuses, wait_for
+from test_restart import below, ended, sleepers, statuses, wait_for
 
 BUMPY = plyfile.grid(12, height=0.02)
 
@@ -85,7 +84,7 @@ def test_outputs_are_seen_complete_only(batch):
 
 def workers_of(pid):
     """The Dask worker processes below a process."""
-    return [p for p in psutil.Process(pid).children(recursive=True) if "spawn_main" in " ".join(p.cmdline())]
+    return below(pid, lambda process: "spawn_main" in " ".join(process.cmdline()))
 
 
 def test_killed_worker(batch, stub):
