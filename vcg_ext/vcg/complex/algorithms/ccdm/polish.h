@@ -22,7 +22,8 @@ public:
     Polish(const Model &model, Remesh &remesh) : Polish(model, remesh, 50 + remesh.VertexCount() / 50) {}
     /// `failures`: how many attempts at triangles may be in vain.
     Polish(const Model &model, Remesh &remesh, int failures)
-        : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh), _failuresLeft(failures)
+        : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh), _failuresLeft(failures),
+          _searchesLeft(2000 + 4LL * remesh.VertexCount())
     {
     }
 
@@ -64,7 +65,8 @@ public:
 
     /// Shakes what RaiseAngles has left and no feature touches: the vertices around such a triangle are perturbed and
     /// optimised anew, a few times over, until the smallest angle there is larger than it was. Where two irregular
-    /// vertices hold each other, no small move helps. At most `places` of them, as many `rings` around each.
+    /// vertices hold each other, no small move helps. At most `places` of them, as many `rings` around each; where all
+    /// is bad the searches for positions are limited too, all calls together.
     void Shake(std::uint64_t seed, int places, int rings = 3)
     {
         const std::vector<int> left = _bad;
@@ -76,7 +78,7 @@ public:
                                           [&](int v) { return _remesh.place[v].kind == VertexKind::Free; });
             if (!free || vain.count(t) > 0 || !(LargestCosine(t) > std::cos(_searched * Pi / 180)))
                 continue;
-            if (places-- == 0)
+            if (places-- == 0 || _searchesLeft <= 0)
                 break;
             if (!ShakeAround(t, rings, random))
                 vain.insert(_patch.Triangles().begin(), _patch.Triangles().end());
@@ -133,7 +135,8 @@ private:
     Remesh &_remesh;
     Relocator _relocator;
     TrialPatch _patch;
-    int _failuresLeft; // attempts at triangles, all calls together, that may be in vain
+    int _failuresLeft;       // attempts at triangles, all calls together, that may be in vain
+    long long _searchesLeft; // for positions in shaken patches, all calls together
     double _stray = 0;
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
@@ -221,7 +224,7 @@ private:
         for (const int t : _patch.Triangles())
             if (LargestCosine(t) > wanted)
                 for (const int v : _remesh.mesh.triangle[t].v)
-                    if (_patch.Contains(v))
+                    if (_patch.Contains(v) && _searchesLeft-- > 0)
                         moved = Shift(v) || moved;
         return moved;
     }

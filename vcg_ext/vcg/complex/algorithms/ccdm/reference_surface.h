@@ -2,7 +2,9 @@
 #ifndef VCG_CCDM_REFERENCE_SURFACE_H
 #define VCG_CCDM_REFERENCE_SURFACE_H
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <unordered_set>
 #include <utility>
@@ -66,50 +68,40 @@ public:
             return {bestFace, best};
 
         // Nearest side first, so that the search runs straight towards the target.
-        struct Gate {
-            double distance;
-            Side side;
-        };
-        std::array<Gate, MaxGates> gate;
-        std::array<int, MaxVisited> visited;
-        int gates = 0, count = 0;
-        visited[count++] = from;
+        std::array<double, MaxGates> distance;
+        std::array<Side, MaxGates> gate;
+        int gates = 0;
+        Visited visited;
+        visited.Add(from);
         int face = from;
         for (;;) {
             const Triangle &T = mesh.triangle[face];
             for (int e = 0; e < 3; ++e) {
                 const Side link = T.n[e];
-                if (link == NoSide || T.Constrained(e) || gates == MaxGates)
-                    continue;
-                bool known = false;
-                for (int k = count - 1; k >= 0 && !known; --k)
-                    known = visited[k] == SideTriangle(link);
-                if (known)
+                if (link == NoSide || T.Constrained(e) || gates == MaxGates || visited.Has(SideTriangle(link)))
                     continue;
                 const Point &tail = position[T.v[Next(e)]];
                 const double d = SegmentSquaredDistance(target, tail, position[T.v[Prev(e)]] - tail);
-                if (d <= std::min(reach, 4 * best.squaredDistance))
-                    gate[gates++] = {d, link};
+                if (d <= std::min(reach, 4 * best.squaredDistance)) {
+                    distance[gates] = d;
+                    gate[gates++] = link;
+                }
             }
             bool moved = false;
             while (gates > 0 && !moved) {
-                int nearest = 0;
-                for (int k = 1; k < gates; ++k)
-                    if (gate[k].distance < gate[nearest].distance)
-                        nearest = k;
-                if (gate[nearest].distance > 4 * best.squaredDistance) {
+                const auto nearest = std::min_element(distance.begin(), distance.begin() + gates) - distance.begin();
+                if (distance[nearest] > 4 * best.squaredDistance) {
                     gates = 0;
                     break;
                 }
-                face = SideTriangle(gate[nearest].side);
-                gate[nearest] = gate[--gates];
-                moved = true;
-                for (int k = count - 1; k >= 0 && moved; --k)
-                    moved = visited[k] != face;
+                face = SideTriangle(gate[nearest]);
+                distance[nearest] = distance[--gates];
+                gate[nearest] = gate[gates];
+                moved = !visited.Has(face);
             }
-            if (!moved || count == MaxVisited)
+            if (!moved || visited.Full())
                 break;
-            visited[count++] = face;
+            visited.Add(face);
             const Foot foot = NearestOn(face, target);
             if (foot.squaredDistance < best.squaredDistance) {
                 best = foot;
@@ -152,8 +144,38 @@ public:
     }
 
 private:
-    static constexpr int MaxVisited = 192;
     static constexpr int MaxGates = 256;
+
+    /// The faces of one search. Most searches see a few; where hundreds of faces meet in a place, the filter spares
+    /// looking through them.
+    class Visited
+    {
+    public:
+        bool Full() const { return _count == Most; }
+        void Add(int face)
+        {
+            _face[_count++] = face;
+            _filter[Slot(face)] |= Bit(face);
+        }
+        bool Has(int face) const
+        {
+            if ((_filter[Slot(face)] & Bit(face)) == 0)
+                return false;
+            int k = _count - 1;
+            while (k >= 0 && _face[k] != face)
+                --k;
+            return k >= 0;
+        }
+
+    private:
+        static constexpr int Most = 192, Words = 16;
+        std::array<std::uint64_t, Words> _filter{};
+        std::array<int, Most> _face;
+        int _count = 0;
+
+        static unsigned Slot(int face) { return static_cast<unsigned>(face) / 64 % Words; }
+        static std::uint64_t Bit(int face) { return std::uint64_t(1) << (static_cast<unsigned>(face) % 64); }
+    };
 
     const Point &Corner(int face, int i) const { return position[mesh.triangle[face].v[i]]; }
 };
