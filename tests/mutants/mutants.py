@@ -6,6 +6,7 @@ A fault is a piece of a header that occurs once, what it is replaced by, and the
 those do not, all others are asked. BUILD is a folder for the spoilt copies."""
 import concurrent.futures
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -28,7 +29,7 @@ FAULTS = {
     "collapse that joins two boundaries": (
         "ccdm/triangulation.h", " || (vBoundary && wBoundary && !boundaryEdge))", ")", ["triangulation"]),
     "relocation that turns a triangle over": (
-        "ccdm/relocation.h", "constexpr double least = 0.04;", "constexpr double least = -4;", ["relocation"]),
+        "ccdm/relocation.h", "all = along > 1e-4 * scale && along", "all = along", ["relocation"]),
     "circumcentres weighted by the wrong edges": (
         "ccdm/centroid_rules.h", "w * (m * uu * (ww - uw) / (2 * m2))", "w * (m * ww * (ww - uw) / (2 * m2))",
         ["centroid_rules"]),
@@ -47,8 +48,8 @@ FAULTS = {
     "larger part of the faces turned": (
         "ccdm/input_mesh.h", "if (2 * against > queue.size())", "if (2 * against < queue.size())", ["input_repair"]),
     "three sheets sewn together": (
-        "ccdm/input_repair.h", "if (last - first != 2 || first->a == first->b)",
-        "if (last - first < 2 || first->a == first->b)", ["input_repair"]),
+        "ccdm/input_repair.h", "if (last - first != 2 || first->a == first->b ||",
+        "if (last - first < 2 || first->a == first->b ||", ["input_repair"]),
     "several fans pass the proof": (
         "ccdm/verification.h", "if (p.star.Triangles() != corners)", "if (p.star.Triangles() > corners)",
         ["triangulation"]),
@@ -84,6 +85,11 @@ def spoil(folder, name):
         file.write(text.replace(right, wrong))
 
 
+def limit_memory():
+    """A fault may make a loop that never ends and takes ever more."""
+    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+
 def notices(folder, vcglib, tests):
     """What the tests compiled with the spoilt headers say: the first failure, or an empty string."""
     sources = [os.path.join(ROOT, "tests", t) for t in tests]
@@ -98,7 +104,8 @@ def notices(folder, vcglib, tests):
     if built.returncode != 0:
         raise SystemExit(f"mutants.py: a fault does not compile:\n{built.stderr[:2000]}")
     try:
-        run = subprocess.run([program, "--gtest_fail_fast"], capture_output=True, text=True, timeout=900, check=False)
+        run = subprocess.run([program, "--gtest_fail_fast"], capture_output=True, text=True, timeout=900, check=False,
+                             preexec_fn=limit_memory)
     except subprocess.TimeoutExpired:
         return "it does not end"
     if run.returncode == 0:

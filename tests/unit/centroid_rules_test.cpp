@@ -92,7 +92,8 @@ TEST(CellCentroid, FollowsTheDensity)
         if (std::abs(p[0] - 0.5) > 0.2 || std::abs(p[1] - 0.5) > 0.2)
             continue;
         const Point wanted = CellByGrid(plane.remesh, v, 0.2, [](const Point &q) { return 1 + 2 * q[0]; });
-        EXPECT_LT(Norm(plane.Displacement(v, false) - wanted), 2e-3);
+        // The density moves the centroid by about 1e-3.
+        EXPECT_LT(Norm(plane.Displacement(v, false) - wanted), 2e-4);
     }
 }
 

@@ -114,12 +114,15 @@ TEST(Triangulation, SplitsKeepTypeAndFeatures)
 
 TEST(Triangulation, CollapsesDownToTheSmallestSurfaces)
 {
-    // The least vertices of a sphere, a torus and a Klein bottle are 4, 7 and 8; legal collapses alone
-    // need not reach them, but must come close and never go below.
+    // The least vertices of a sphere, a torus, a Klein bottle and a Moebius strip are 4, 7, 8 and 5; legal
+    // collapses alone need not reach them, but must come close and never go below.
     const struct {
         shapes::Shape shape;
         int least, most;
-    } cases[] = {{shapes::Sphere(1), 4, 4}, {shapes::RoundTorus(8, 6), 7, 10}, {shapes::KleinBottle(8, 6), 8, 12}};
+    } cases[] = {{shapes::Sphere(1), 4, 4},
+                 {shapes::RoundTorus(8, 6), 7, 10},
+                 {shapes::KleinBottle(8, 6), 8, 12},
+                 {shapes::MoebiusStrip(9, 3), 5, 9}};
     for (const auto &c : cases) {
         Triangulation m = Build(c.shape);
         const TopologyCounts before = VerifyTriangulation(m).counts;
@@ -181,6 +184,13 @@ TEST(Verification, FindsPlantedFaults)
     EXPECT_NE(faultAfter([](Triangulation &m) { m.triangle[3].dead = 1; }), "");
     EXPECT_NE(faultAfter([](Triangulation &m) { m.incident[4] = -1; }), "");
     EXPECT_NE(faultAfter([](Triangulation &m) { m.triangle[3].SetConstrained(0, true); }), "");
+    // A flip in a tetrahedron repeats the opposite edge; all stars stay fans.
+    for (int side = 0; side < 12; ++side) {
+        Triangulation m;
+        m.Build(4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+        m.Flip(MakeSide(side / 3, side % 3));
+        EXPECT_EQ(VerifyTriangulation(m).fault, "an edge is repeated");
+    }
     // Two vertices made one: more than one fan.
     EXPECT_NE(faultAfter([](Triangulation &m) {
                   for (Triangle &T : m.triangle)
