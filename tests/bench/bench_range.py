@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Time from 4 vertices to five times the input's: processor seconds of whole runs of the default on one thread.
+
+Writes build/bench/range.json and the section on the range of tests/bench/README.md.
+"""
+import json
+import os
+import sys
+import tempfile
+
+import pages
+from common import OUT, PROGRAM, count_vertices, model, provenance, usage_of
+
+MODELS = ("joint", "twist", "moai", "bunny_scan", "igea")
+FEW = (4, 40, 400)
+
+TEXT = """Processor seconds of whole runs of the default on one thread, reading and writing included, from 4 vertices
+to five times the V of the input. Where the topology or the features take more vertices than were asked for, the
+result has those (in brackets). The last column holds 1 if the time grows in proportion to the vertices from V on."""
+
+
+def bench(source, n, folder):
+    report = os.path.join(folder, "report.json")
+    cost = usage_of([PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--threads", "1", "--quiet",
+                     "--report", report])
+    with open(report, encoding="utf-8") as text:
+        return {"n": n, "vertices": json.load(text)["result"]["vertices"], "cpu": cost.cpu}
+
+
+def bench_model(name, folder):
+    source = model(name)
+    size = count_vertices(source)
+    rows = []
+    for n in (*FEW, size, 5 * size):
+        rows.append(bench(source, n, folder))
+        print(f"{name:>12}: {n:>9} vertices, {rows[-1]['cpu']:>8.2f} s", flush=True)
+    return {"model": os.path.splitext(os.path.basename(source))[0], "vertices": size, "runs": rows}
+
+
+def cell(run):
+    return f"{run['cpu']:.2f}" + (f" ({run['vertices']:,})" if run["vertices"] != run["n"] else "")
+
+
+def section(data):
+    lines = []
+    for entry in data["models"]:
+        *few, once, last = entry["runs"]
+        growth = (last["cpu"] - once["cpu"]) / once["cpu"] / (last["vertices"] / once["vertices"] - 1)
+        lines.append([entry["model"], f"{entry['vertices']:,}", *map(cell, few), cell(once), cell(last),
+                      f"{growth:.2f}"])
+    head = ["model", "V", *map(str, FEW), "V", "5 V", "growth"]
+    return pages.stamp(data, "this section") + ["", *pages.paragraph(TEXT), "",
+                                                *pages.table(head, lines, texts=("model",))]
+
+
+def main():
+    os.makedirs(OUT, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        data = {**provenance(" ".join(["./run.sh bench range", *sys.argv[1:]])),
+                "models": [bench_model(name, folder) for name in MODELS]}
+    with open(os.path.join(OUT, "range.json"), "w", encoding="utf-8") as out:
+        json.dump(data, out, indent=1)
+    pages.write_section("range", section(data))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
