@@ -37,7 +37,8 @@ build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
 reference_packages=(doxygen)
-test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0 "${reference_packages[@]}")
+test_packages=(clang-format clang-tidy python3-pytest python3-venv python3-yaml libgl1 libopengl0
+    "${reference_packages[@]}")
 package_packages=(python3-pip python3-setuptools python3-wheel binutils)
 fuzz_packages=(clang libclang-rt-14-dev)
 # What drives MeshLab's window.
@@ -175,8 +176,8 @@ check_style() {
 run_tests() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" \
         "${window_packages[@]}"
-    # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
-    python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
+    # ccdm-batch runs on PyMeshLab too: its packages go into the same environment, and what checks CITATION.cff.
+    python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow cffconvert
     if [ -n "${CCDM_ALL_HOSTS:-}" ]; then
         python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     else

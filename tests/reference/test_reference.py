@@ -112,8 +112,8 @@ def defaults(said):
 
 
 def remesh(*arguments):
-    return subprocess.run([os.environ["CCDM_REMESH"], *map(str, arguments)], capture_output=True, text=True, timeout=60,
-                          check=True).stdout
+    command = [os.environ["CCDM_REMESH"], *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout
 
 
 @pytest.mark.parametrize("optimizer", ["accelerated", "annealing"])
