@@ -41,6 +41,9 @@ def test_named_files_and_verbs_exist(page):
         assert verb in verbs(), verb
     for name in re.findall(r"`((?:tests|vcg_ext|filter_ccdm|sample_meshes|python|cmake)/[\w/.]*)`", text):
         assert (ROOT / name).exists(), name
+    sources = {p.name for top in ("vcg_ext", "filter_ccdm", "tests", "sample_meshes") for p in (ROOT / top).rglob("*")}
+    for name in re.findall(r"`(\w+\.(?:h|cpp|py|mlx))`", text):
+        assert name in sources or name == "import_obj.h", f"{name}, which is none of MeshLab's"
 
 
 def test_script_tells_of_every_verb():
