@@ -21,6 +21,8 @@ usage: ./run.sh VERB
   coverage
           the lines of vcg_ext that the tests reach: build/coverage/lines.txt
   mutants plants faults in the engine, one at a time, and counts those that the tests notice
+  reference
+          the pages of the public headers, in build/reference
   package the same set-up, then the Debian packages and Python wheels, in build/packages
   screenshots
           the pictures of MeshLab's window in filter_ccdm/pictures, taken anew
@@ -34,7 +36,9 @@ fail() { printf 'run.sh: %s\n' "$*" >&2; exit 1; }
 build_packages=(g++ cmake ninja-build libeigen3-dev libcli11-dev nlohmann-json3-dev libgtest-dev qtbase5-dev
     libqt5opengl5-dev libglew-dev meshlab dpkg-dev xz-utils ca-certificates)
 demo_packages=(xvfb xauth python3-numpy python3-matplotlib)
-test_packages=(clang-format clang-tidy python3-pytest python3-venv libgl1 libopengl0)
+reference_packages=(doxygen)
+test_packages=(clang-format clang-tidy python3-pytest python3-venv python3-yaml libgl1 libopengl0
+    "${reference_packages[@]}")
 package_packages=(python3-pip python3-setuptools python3-wheel binutils)
 fuzz_packages=(clang libclang-rt-14-dev)
 # What drives MeshLab's window.
@@ -172,8 +176,8 @@ check_style() {
 run_tests() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}" "${test_packages[@]}" "${package_packages[@]}" \
         "${window_packages[@]}"
-    # ccdm-batch runs on PyMeshLab too: its packages go into the same environment.
-    python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow
+    # ccdm-batch runs on PyMeshLab too: its packages go into the same environment, and what checks CITATION.cff.
+    python_host 2025.07 pymeshlab==2025.7 numpy pytest distributed pyarrow cffconvert
     if [ -n "${CCDM_ALL_HOSTS:-}" ]; then
         python_host 2022.02 pymeshlab==2022.2.post4 'numpy<2' pytest
     else
@@ -249,6 +253,16 @@ mutants() {
     /usr/bin/python3 tests/mutants/mutants.py build/mutants ".sdk/meshlab-${sdks[0]%:*}/vcglib" "$@"
 }
 
+# Whatever is public and not documented is an error.
+reference() {
+    install_packages "${reference_packages[@]}"
+    rm -rf build/reference
+    mkdir -p build/reference
+    (cd vcg_ext && { cat Doxyfile && echo 'OUTPUT_DIRECTORY = ../build/reference'; } | doxygen -) ||
+        fail "the headers are not documented as they should be"
+    say "build/reference/index.html"
+}
+
 screenshots() {
     install_packages "${build_packages[@]}" "${window_packages[@]}"
     build
@@ -280,6 +294,7 @@ bench) bench "${@:2}" ;;
 fuzz) fuzz "${2:-}" ;;
 coverage) coverage ;;
 mutants) mutants "${@:2}" ;;
+reference) reference ;;
 package) package ;;
 screenshots) screenshots ;;
 clean)

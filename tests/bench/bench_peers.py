@@ -6,7 +6,7 @@ Every process runs on one core. Its time is user + system seconds, reading and w
 starting Python and importing a package took; the least of the runs counts. Each remesher gets the feature
 angle that is the command line's default, and a size calibrated until the vertex count is within 3 %. What
 cannot be installed, fails or takes too long is a row with the reason. All results are measured by the
-project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md and its pictures.
+project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's table.
 """
 import argparse
 import json
@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import peers_in_readme
 import peers_page
 from common import OUT, cases, measure, model, provenance, usage_of
 from peers import all_peers
@@ -154,6 +155,7 @@ def main():
     with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:
         json.dump(data, out, indent=1)
     peers_page.write(data)
+    peers_in_readme.write()
     print("\n".join(peers_page.conclusions(data)))
     return 0
 

@@ -54,7 +54,7 @@ def test_example_is_built_and_runs(development, tmp_path):
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={development}", f"-DVCGLIB_INCLUDE_DIR={os.environ['CCDM_VCGLIB']}")
     log = call("cmake", "--build", tmp_path, "-v")
     assert "-ffp-contract=off" in log, "as where the project itself uses the library: equal bits"
-    assert call(tmp_path / "remesh_a_box") == "100 vertices, 196 triangles\n"
+    assert call(tmp_path / "remesh_a_box") == "2000 vertices, 3996 triangles\n"
 
 
 def test_missing_vcglib_is_said(development, tmp_path):

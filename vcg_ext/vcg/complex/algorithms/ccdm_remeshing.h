@@ -25,7 +25,10 @@ template <class MeshType>
 class CCDMRemeshing
 {
 public:
+    /// What a run is told.
     using Params = ccdm::Params;
+
+    /// What a run achieved.
     using Report = ccdm::Report;
 
     /// Where on the input the elements of a result lie; faces and vertices of the input are named by their places in

@@ -23,31 +23,31 @@ namespace tri {
 
 /// Counts and shape of a triangle mesh. Angles in degrees.
 struct MeshQualityReport {
-    int vertices = 0;     ///< all that are not deleted
-    int unreferenced = 0; ///< those of them that no face uses
-    int faces = 0;
-    int edges = 0;
-    int euler = 0; ///< of the referenced part
-    int components = 0;
-    int boundaryLoops = 0;
+    int vertices = 0;            ///< all that are not deleted
+    int unreferenced = 0;        ///< those of them that no face uses
+    int faces = 0;               ///< but for those that name a vertex twice
+    int edges = 0;               ///< each counted once, however many faces it has
+    int euler = 0;               ///< Euler characteristic of the referenced part
+    int components = 0;          ///< joined over edges
+    int boundaryLoops = 0;       ///< closed chains of edges of one face
     int nonManifoldEdges = 0;    ///< of more than two faces
     int nonManifoldVertices = 0; ///< of more than one fan
     int degenerateFaces = 0;     ///< an index repeats, or height / longest edge <= 1e-10
-    bool orientable = true;
-    bool manifold = true;
+    bool orientable = true;      ///< whether the faces can be turned so that neighbours agree
+    bool manifold = true;        ///< no edge of three faces, no vertex of two fans, no repeated face or index
     /// Handles of an orientable surface, cross-caps of another, summed over the components; unset for a
     /// surface that is not manifold.
     std::optional<double> genus;
 
     double angleMinAvg = 0; ///< mean over the faces of their smallest angle
-    double angleMin = 0;
-    double angleMax = 0;
-    double pctLt30 = 0;  ///< percentage of all angles below 30 degrees
-    double qFb99Avg = 0; ///< 2 sqrt(3) area / (half perimeter * longest edge) [FB99]; 1: equilateral
-    double qFb99Min = 0;
+    double angleMin = 0;    ///< smallest of all angles
+    double angleMax = 0;    ///< largest of all angles
+    double pctLt30 = 0;     ///< percentage of all angles below 30 degrees
+    double qFb99Avg = 0;    ///< 2 sqrt(3) area / (half perimeter * longest edge) [FB99]; 1: equilateral
+    double qFb99Min = 0;    ///< smallest of the same
     double pctValence6 = 0; ///< of the vertices off the boundary
     int foldedEdges = 0;    ///< edges whose faces turn by more than 150 degrees
-    double area = 0;
+    double area = 0;        ///< of all faces, in the mesh's units
 };
 
 /// Distances between two surfaces, relative to the bounding-box diagonal of the first.

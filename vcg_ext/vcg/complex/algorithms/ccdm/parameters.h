@@ -63,53 +63,80 @@ enum class TargetKind {
 };
 
 /// Parameters of the remesher. Values only; a default-constructed object needs just one of vertexCount,
-/// edgeLength and maxError, and exactly one.
+/// edgeLength and maxError, and exactly one. Each ends with its unit, range, default and source; "paper" is Chen, Cao
+/// and Wang 2012, a header named as the source explains what the paper does not have. Values out of range make the
+/// status InvalidParameter.
 struct Params {
-    /// Number of vertices of the result, 4 to 100000000; 0: not given.
+    /// Number of vertices of the result. More come out only when the topology or the features need them.
+    /// Unit: vertices. Range: [4, 100000000], or 0. Default: 0, not given. Source: paper, section 3.2.
     int vertexCount = 0;
-    /// Mean edge length of the result, in the mesh's units, above 0; met to about 2 percent.
+    /// Mean edge length of the result, met to about 2 percent; turned into a vertex count.
+    /// Unit: the mesh's. Range: (0, inf). Default: not given. Source: edge_length.h.
     std::optional<double> edgeLength;
-    /// Largest two-sided (Hausdorff) distance between the input and the result, relative to the diagonal of the
-    /// input's bounding box; range (0, 1]. Reached, as measured, with few vertices, or the run fails.
+    /// Largest two-sided (Hausdorff) distance between the input and the result. Reached, as measured, with few
+    /// vertices in at most 8 runs, or the status is NotReached.
+    /// Unit: diagonals of the input's bounding box. Range: (0, 1]. Default: not given. Source: target_search.h.
     std::optional<double> maxError;
-    /// An edge is a feature when its two faces deviate from flat by more than this angle, in degrees,
-    /// range (0, 180]. 180: only boundaries and marked edges are features.
+    /// An edge is a feature when its two faces deviate from flat by more than this angle; at 180 only boundaries
+    /// and marked edges are features.
+    /// Unit: degrees. Range: (0, 180]. Default: 40. Source: paper, section 3.2; the value is measured.
     double featureAngle = 40.0;
     /// Takes the edges that the caller has marked as features in addition to those found by angle.
+    /// Unit: none. Range: true or false. Default: false. Source: paper, section 3.2.
     bool useMarkedEdges = false;
+    /// What becomes of the boundary.
+    /// Unit: none. Range: any kind. Default: Sliding. Source: paper, sections 3.2 and 3.3, for Sliding.
     BoundaryKind boundary = BoundaryKind::Sliding;
+    /// What is done about an input that is no 2-manifold.
+    /// Unit: none. Range: any kind. Default: Harmless. Source: input_repair.h.
     RepairKind repair = RepairKind::Harmless;
     /// Remeshes the selected faces only; all other vertices and faces stay as they are, and so do the edges between
     /// the two parts. The vertex count is that of the whole result; errors and lengths are about the remeshed part.
+    /// Unit: none. Range: true or false. Default: false. Source: selection.h.
     bool selectedFacesOnly = false;
-    /// Size of the perturbation relative to the mean length of a vertex's edges, the lambda of
-    /// equation (4); range [0, 1]. The accelerated optimiser starts at half of it and fades it out.
+    /// Size of the perturbation. The accelerated optimiser starts at half of it and fades it out.
+    /// Unit: mean length of a vertex's edges. Range: [0, 1]. Default: 0.2. Source: paper, section 3.4, lambda of
+    /// equation (4).
     double lambda = 0.2;
-    /// Number of perturb-optimise rounds, the paper's NG; at least 0. Unset: 40 with annealing, 24 with the
-    /// accelerated optimiser. That does NG * NL relocations; where it starts from a coarse level, twice as many
-    /// there and three tenths as many at full resolution.
+    /// Number of perturb-optimise rounds, NG. The accelerated optimiser does NG * NL relocations; where it starts from
+    /// a coarse level, twice as many there and three tenths as many at full resolution.
+    /// Unit: rounds. Range: [0, 1000000]. Default: 24; with annealing 40. Source: paper, section 3.4, for 40; 24 is
+    /// measured.
     std::optional<int> globalIterations;
-    /// Number of (Delaunay mesh, relocation) steps in each round, the paper's NL; at least 1.
+    /// Number of (Delaunay mesh, relocation) steps in each round, NL.
+    /// Unit: steps. Range: [1, 1000000]. Default: 3. Source: paper, section 3.4.
     int localIterations = 3;
+    /// What the wanted vertex density is proportional to.
+    /// Unit: none. Range: any kind. Default: Uniform. Source: paper, section 3.2.
     DensityKind density = DensityKind::Uniform;
-    /// gamma in rho = phi^gamma, the weight in the energy; range [0, 3]. Unset: 1/5 with annealing, as in
-    /// the paper; with the accelerated optimiser what makes the vertex density proportional to phi (DensityExponent).
+    /// gamma in rho = phi^gamma, the weight in the energy; the default of the accelerated optimiser is what makes the
+    /// vertex density proportional to phi (DensityExponent).
+    /// Unit: none. Range: [0, 3]. Default: 2, with cpt 1, with odt 1.6; with annealing 0.2. Source: paper, section 3.2,
+    /// for 0.2; Du, Faber, Gunzburger 1999 for 2; 1 and 1.6 are measured.
     std::optional<double> densityExponent;
+    /// How the mesh is optimised.
+    /// Unit: none. Range: any kind. Default: Accelerated. Source: paper, section 3.4, for Annealing; optimizer.h.
     OptimizerKind optimizer = OptimizerKind::Accelerated;
+    /// How the first points are laid out.
+    /// Unit: none. Range: any kind. Default: Front. Source: paper, section 3.2, for Random; front_sampler.h.
     SamplerKind sampler = SamplerKind::Front;
-    /// The rule of the relocations. Unset: PatchCentroid with annealing, as in the paper; CellCentroid with the
-    /// accelerated optimiser, whose last relocations are to the patch centroid whatever the rule.
+    /// The rule of the relocations. The accelerated optimiser's last ones are to the patch centroid whatever the rule.
+    /// Unit: none. Range: any kind. Default: CellCentroid; with annealing PatchCentroid. Source: paper, section 2.1,
+    /// for PatchCentroid; centroid_rules.h.
     std::optional<RelocationKind> relocation;
-    /// Smallest angle that the closing polish aims at, in degrees; range [0, 45]. Unset: 40 with the
-    /// accelerated optimiser, 34 with annealing.
+    /// Smallest angle that the closing polish aims at. Not guaranteed: Report::angles says what stands in the way.
+    /// Unit: degrees. Range: [0, 45]. Default: 40; with annealing 34. Source: polish.h; the values are measured.
     std::optional<double> minAngle;
-    /// How much closeness to the input counts against the angles in the closing steps, range [0, 1]. The default
-    /// costs hardly any angle. Above 0.5 the vertices also leave the surface, at 1 by the offset along their
-    /// normals that makes the squared distance least.
+    /// How much closeness to the input counts against the angles in the closing steps. The default costs hardly any
+    /// angle. Above 0.5 the vertices also leave the surface, at 1 by the offset along their normals that makes the
+    /// squared distance least.
+    /// Unit: none. Range: [0, 1]. Default: 0.25. Source: approximation.h and surface_offset.h; the value is measured.
     double approximation = 0.25;
     /// Seed of the only random generator; equal input, parameters and seed give equal results.
+    /// Unit: none. Range: [0, 4294967295]. Default: 1. Source: geometry.h.
     std::uint32_t seed = 1;
-    /// Number of threads, at least 0; 0: as many as the machine has cores. The result is the same for any.
+    /// Number of threads; at 0 as many as the machine has cores. The result is the same for any.
+    /// Unit: threads. Range: [0, inf). Default: 0. Source: parallel.h.
     int threads = 0;
 };
 
@@ -168,32 +195,32 @@ enum class Status {
 
 /// Defects of the input, as counts; those that forbid remeshing make the status InvalidInput.
 struct InputDefects {
-    int unreferencedVertices = 0; ///< dropped with a warning
+    int unreferencedVertices = 0; ///< that no face uses; dropped with a warning
     int repeatedIndexFaces = 0;   ///< faces that name a vertex twice; dropped with a warning
-    int zeroAreaFaces = 0;        ///< kept: they carry no sample
+    int zeroAreaFaces = 0;        ///< faces without area; kept: they carry no sample
     int turnedFaces = 0;          ///< turned over to agree with their neighbours, with a warning if there are two sides
     int mergedVertices = 0;       ///< vertices of a cut boundary that were merged into others at their positions
     int copiedVertices = 0;       ///< new vertices where the surface was cut apart
-    int nonFiniteVertices = 0;    ///< refused
+    int nonFiniteVertices = 0;    ///< with a coordinate that is not finite; refused
     int nonManifoldEdges = 0;     ///< edges of more than two faces; refused, or cut apart
     int nonManifoldVertices = 0;  ///< vertices whose faces form more than one fan; refused, or cut apart
     int duplicateFaces = 0;       ///< faces on the same three vertices; dropped, or refused if they are a component
     int badDensityVertices = 0;   ///< density values that are negative or not finite; refused
 
-    static constexpr std::size_t MostPlaces = 10;
+    static constexpr std::size_t MostPlaces = 10; ///< in each of the two lists that follow
     std::vector<std::array<int, 2>> refusedEdges; ///< the first of those refused, by their vertices
     std::vector<int> refusedVertices;             ///< the first of those refused
 };
 
 /// Topological type of a surface.
 struct TopologyCounts {
-    int vertices = 0; ///< referenced ones
-    int edges = 0;
-    int faces = 0;
-    int euler = 0;
-    int components = 0;
-    int boundaryLoops = 0;
-    bool orientable = true;
+    int vertices = 0;       ///< those that faces use
+    int edges = 0;          ///< each counted once
+    int faces = 0;          ///< triangles
+    int euler = 0;          ///< Euler characteristic: vertices - edges + faces
+    int components = 0;     ///< joined over edges
+    int boundaryLoops = 0;  ///< closed chains of boundary edges
+    bool orientable = true; ///< whether the surface has two sides
 
     /// Same surface up to homeomorphism, as far as these counts tell.
     bool SameTypeAs(const TopologyCounts &o) const
@@ -212,7 +239,7 @@ enum class NarrowKind {
 /// A narrow part of the input: no mesh of the wanted spacing can have good angles there. Lengths in the mesh's
 /// units.
 struct NarrowPlace {
-    NarrowKind kind = NarrowKind::ThinPart;
+    NarrowKind kind = NarrowKind::ThinPart;     ///< what is narrow
     std::array<double, 3> position = {0, 0, 0}; ///< where it is narrowest, relative to the spacing
     double width = 0;                           ///< thickness, or distance between the features
     double spacing = 0;                         ///< wanted edge length there
@@ -227,22 +254,23 @@ enum class SmallAngleReason {
     FewVertices,   ///< the spacing is larger than the radius of curvature of the surface or of a feature
     Unexplained    ///< none of these: the target was just not reached
 };
-constexpr int SmallAngleReasonCount = 5;
+constexpr int SmallAngleReasonCount = 5; ///< number of reasons
 
 /// A triangle of the result whose smallest angle is below the target.
 struct SmallAngle {
-    int face = 0;                               ///< index in the result
-    double degrees = 0;                         ///< its smallest angle
-    std::array<double, 3> position = {0, 0, 0}; ///< its centroid
-    SmallAngleReason reason = SmallAngleReason::Unexplained;
+    int face = 0;                                            ///< index in the result
+    double degrees = 0;                                      ///< its smallest angle
+    std::array<double, 3> position = {0, 0, 0};              ///< its centroid
+    SmallAngleReason reason = SmallAngleReason::Unexplained; ///< what was found in the input there
 };
 
 /// The smallest angle of a result, and a reason for each triangle below the target. In degrees.
 struct AngleCertificate {
-    double target = 0;  ///< MinAngle of the parameters
-    double reached = 0; ///< smallest angle of the result
-    std::vector<SmallAngle> below;
+    double target = 0;             ///< MinAngle of the parameters
+    double reached = 0;            ///< smallest angle of the result
+    std::vector<SmallAngle> below; ///< every triangle whose smallest angle is below the target
 
+    /// Number of triangles below the target for one reason.
     int Count(SmallAngleReason reason) const
     {
         int count = 0;
@@ -252,40 +280,43 @@ struct AngleCertificate {
     }
 };
 
-/// What a run achieved.
+/// What a run achieved. Counts are from 0 up and start at 0; unless the status is Done, what comes after the stage that
+/// failed is as it starts.
 struct Report {
-    Status status = Status::InvalidInput;
-    std::string message; ///< one sentence with the cause; empty when done
-    InputDefects defects;
-    TopologyCounts inputTopology;
-    TopologyCounts resultTopology;
-    bool topologyPreserved = false;
+    Status status = Status::InvalidInput; ///< how the run ended
+    std::string message;                  ///< one sentence with the cause; empty when done
+    InputDefects defects;                 ///< of the input, in counts
+    TopologyCounts inputTopology;         ///< of the input once mended
+    TopologyCounts resultTopology;        ///< of the result, counted anew by the final check
+    bool topologyPreserved = false;       ///< whether the two are of the same type
 
-    TargetKind target = TargetKind::Vertices;
-    double asked = 0;   ///< the target's value: vertices, length in the mesh's units, or relative distance
-    double reached = 0; ///< what the result has of it, measured
-    int runs = 0;       ///< remeshings that it took; `seconds` is their sum, the rest is about the last that counts
+    TargetKind target = TargetKind::Vertices; ///< what the parameters ask for
+    double asked = 0;   ///< the target's value: vertices, length in the mesh's units, or distance in diagonals
+    double reached = 0; ///< what the result has of it, measured, in the same unit
+    int runs = 0; ///< remeshings that it took, at most 8; `seconds` is their sum, the rest is about the one handed out
     double meanEdgeLength = 0; ///< of the result, in the mesh's units
 
     int keptVertices = 0;      ///< that were not remeshed, as they do not belong to the selected faces
     int requestedVertices = 0; ///< asked for, or derived from another target
     /// Vertices beyond the requested ones, forced by topology or by features; 0 in the normal case.
     int extraVertices = 0;
-    int featureCurves = 0;
-    int featureCorners = 0;
+    int featureCurves = 0;           ///< curves of creases, boundaries and marked edges (paper, section 3.2)
+    int featureCorners = 0;          ///< vertices that stay: where curves meet, end or turn sharply
     int prunedFragments = 0;         ///< feature fragments shorter than the local spacing, ignored
     std::vector<NarrowPlace> narrow; ///< one for each narrow part, the narrowest in spacings first
 
-    std::vector<double> energy; ///< F of the kept state, first the start, then after each global iteration
-    int accepted = 0;           ///< global iterations whose result was kept
-    long long relocations = 0;  ///< vertex relocations tried, all sweeps together
-    long long flips = 0;        ///< edge flips done by the optimiser
-    bool flipsBounded = false;  ///< flips were ended at their bound: the mesh may not be Delaunay everywhere
-    int foldedEdges = 0;        ///< edges of the result whose faces turn by more than 150 degrees
-    AngleCertificate angles;
+    /// F of equation (1) in the kept state, first the start, then after each global iteration. In the fourth power of
+    /// a unit in which the input is about 1 long, so that only ratios within one run mean something.
+    std::vector<double> energy;
+    int accepted = 0;          ///< global iterations whose result was kept; with the accelerated optimiser all
+    long long relocations = 0; ///< vertex relocations tried, all sweeps together
+    long long flips = 0;       ///< edge flips done by the optimiser
+    bool flipsBounded = false; ///< flips were ended at their bound: the mesh may not be Delaunay everywhere
+    int foldedEdges = 0;       ///< edges of the result whose faces turn by more than 150 degrees
+    AngleCertificate angles;   ///< the smallest angle, and why triangles are below the target
 
     std::vector<std::pair<std::string, double>> seconds; ///< wall time of each phase, in order
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings;                   ///< one sentence each, for the user
 };
 
 } // namespace ccdm

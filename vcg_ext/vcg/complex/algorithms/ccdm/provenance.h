@@ -20,9 +20,9 @@ namespace ccdm {
 struct Provenance {
     /// The corner of a result face as it is seen from that face, where a feature passes through the vertex.
     struct SideCorner {
-        int face = 0;   ///< of the result
-        int corner = 0; ///< 0 to 2
-        SurfacePoint at;
+        int face = 0;    ///< of the result
+        int corner = 0;  ///< 0 to 2
+        SurfacePoint at; ///< where that side of the feature has it
     };
 
     std::vector<SurfacePoint>

@@ -17,8 +17,8 @@ namespace ccdm {
 
 /// A point of the reference surface: a face and barycentric weights of its three vertices.
 struct SurfacePoint {
-    int face = -1;
-    double weight[3] = {1, 0, 0};
+    int face = -1;                ///< index of the face; -1: none
+    double weight[3] = {1, 0, 0}; ///< of the face's vertices in their order, each from 0 to 1, 1 in sum
 };
 
 /// The input, frozen: what every vertex of the remesh lies on. Constant once its features are set.

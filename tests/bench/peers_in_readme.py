@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The README's few lines on other remeshers, from PEERS.md's summary. bench_peers.py writes them, and so does a run
+of this file; a test compares the two pages."""
+import re
+import statistics
+import textwrap
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PAGE = HERE / "PEERS.md"
+README = HERE.parents[1] / "README.md"
+BEGIN, END = "<!-- peers: written by tests/bench/peers_in_readme.py -->", "<!-- peers: end -->"
+HEAD = ("CCDM", "average smallest angle", "best other's", "fastest other's time / ours",
+        "Hausdorff at most the best's", "RMS at most the best's")
+
+
+FIGURES = ("fastest peer's / ours", "least Hausdorff / ours", "least RMS / ours", "our angle", "best peer's")
+
+
+def is_number(text):
+    return re.fullmatch(r"\d+\.?\d*", text) is not None
+
+
+def summary(page):
+    """{mode: the rows of its summary that have figures, by the names of the columns}; of equal names the first."""
+    part = page.split("\n## Summary\n")[1].split("\n## ")[0]
+    found = {}
+    for text in part.split("\n### ")[1:]:
+        head, _, *rows = [[cell.strip() for cell in line.strip("|").split(" | ")]
+                          for line in text.splitlines() if line.startswith("|")]
+        named = [dict(reversed(list(zip(head, row)))) for row in rows]
+        found[text.splitlines()[0]] = [row for row in named if all(is_number(row[name]) for name in FIGURES)]
+    return found
+
+
+def spread(values, digits):
+    return f"{min(values):.{digits}f} to {max(values):.{digits}f}"
+
+
+def row(mode, rows):
+    def column(name):
+        return [float(r[name]) for r in rows]
+    times, hausdorff, rms, ours, others = map(column, FIGURES)
+    return [mode.removeprefix("CCDM, "), spread(ours, 1), spread(others, 1),
+            f"{spread(times, 2)}, median {statistics.median(times):.2f}",
+            *(f"{sum(x >= 1 for x in ratios)} of {len(rows)}" for ratios in (hausdorff, rms))]
+
+
+def lines(page):
+    """The table, and where it is from."""
+    stamp = " ".join(page.split("\n\n")[1].split()).split(". That command")[0]
+    rows = [row(mode, rows) for mode, rows in summary(page).items()]
+    text = (f"Each cell over all models; angles in degrees. From {stamp}; that command writes "
+            "[tests/bench/PEERS.md](tests/bench/PEERS.md), where each model and each remesher is, and this table.")
+    return ["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD),
+            *("| " + " | ".join(r) + " |" for r in rows), "",
+            *textwrap.wrap(text, 119, break_long_words=False, break_on_hyphens=False)]
+
+
+def write():
+    before, rest = README.read_text(encoding="utf-8").split(BEGIN)
+    part = "\n".join([BEGIN, "", *lines(PAGE.read_text(encoding="utf-8")), "", END])
+    README.write_text(before + part + rest.split(END)[1], encoding="utf-8")
+
+
+if __name__ == "__main__":
+    write()
