@@ -13,7 +13,7 @@ usage: ./run.sh VERB
   test    the same set-up, then every check and test; with CCDM_ALL_HOSTS=1 in PyMeshLab 2022.2 too
   build   the command line, a plugin for each MeshLab (2020.09, 2022.02, 2025.07) and the tests, in build/
   bench   the benchmarks (tests/bench), or one of them: bench hosts,
-          bench scaling [--sizes N ...] [--repeats N], bench range,
+          bench scaling [--sizes N ...] [--repeats N], bench range, bench tradeoffs [--models M ...],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
   fuzz SECONDS
@@ -216,7 +216,8 @@ fuzz() {
         mkdir -p "build/fuzz/corpus-$target"
         # The files that once failed are seeds.
         UBSAN_OPTIONS=print_stacktrace=1 build/fuzz/bin/fuzz_$target "build/fuzz/corpus-$target" \
-            "tests/fuzz/corpus/$target" -artifact_prefix=build/fuzz/findings/$target- -max_len=2000 -timeout=30 -report_slow_units=30 \
+            "tests/fuzz/corpus/$target" -artifact_prefix=build/fuzz/findings/$target- -max_len=2000 -timeout=120 \
+            -report_slow_units=120 \
             -rss_limit_mb=2000 -malloc_limit_mb=1000 -max_total_time="$seconds" -print_final_stats=1 \
             >"build/fuzz/$target.log" 2>&1 &
     done
@@ -271,12 +272,13 @@ screenshots() {
 
 bench() {
     local which=${1:-all}
-    case "$which" in all | hosts | scaling | range | rules | peers) ;; *) usage; exit 2 ;; esac
+    case "$which" in all | hosts | scaling | range | tradeoffs | rules | peers) ;; *) usage; exit 2 ;; esac
     install_packages "${build_packages[@]}" "${demo_packages[@]}"
     build
     case "$which" in all | hosts) /usr/bin/python3 tests/bench/bench_hosts.py ;; esac
     case "$which" in all | scaling) /usr/bin/python3 tests/bench/bench_scaling.py "${@:2}" ;; esac
     case "$which" in all | range) /usr/bin/python3 tests/bench/bench_range.py "${@:2}" ;; esac
+    case "$which" in all | tradeoffs) /usr/bin/python3 tests/bench/bench_tradeoffs.py "${@:2}" ;; esac
     case "$which" in all | rules) /usr/bin/python3 tests/bench/bench_rules.py "${@:2}" ;; esac
     case "$which" in all | peers)
         # A remesher that cannot be installed is a row that says so.

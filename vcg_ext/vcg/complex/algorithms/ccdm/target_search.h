@@ -35,17 +35,19 @@ public:
     {
         const tri::TriangleSoup other = _frame.Place({mesh.position, mesh.face});
         const tri::TriangleTree tree(other);
+        const std::size_t faces = _original.face.size() + other.face.size();
+        const int samples = static_cast<int>(std::min(MostSamples, 1000 + SamplesPerFace * faces));
         std::array<double, 2> way = {0, 0};
         workers.For(2, [&](int k, int) {
             way[k] = (k == 0 ? tri::DeviationMeter(_original, tree) : tri::DeviationMeter(other, _tree))
-                         .Measure(Samples)
+                         .Measure(samples)
                          .max;
         });
         return std::max(way[0], way[1]) / _diagonal;
     }
 
 private:
-    static constexpr int Samples = 100000;
+    static constexpr std::size_t SamplesPerFace = 8, MostSamples = 100000;
 
     const tri::UnitFrame _frame;
     const tri::TriangleSoup _original;
