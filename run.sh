@@ -17,7 +17,7 @@ usage: ./run.sh VERB
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
   paper   the paper's tables and figures made anew, beside its printed rows: build/paper/index.md;
-          [--quick] [--peers WORD ...] [--time-limit SECONDS]
+          [--quick] [--peers WORD ...] [--time-limit SECONDS] [--redraw]
   fuzz SECONDS
           random and spoilt meshes and files, for that long: what is found lies in build/fuzz/findings
   coverage

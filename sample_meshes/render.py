@@ -20,16 +20,16 @@ from matplotlib.collections import PolyCollection
 
 from meshfile import read_ply
 
-MOST_EDGED = 60000  # faces; of more, the edges would cover the picture
+MOST_EDGED = 30000  # faces; of more, the edges would cover the picture
 
 
 class Panel:
-    """One mesh under one camera. Panels of the same `frame` show the same part of space; `close`: only the middle
-    of it, of that share of its width, without a histogram."""
+    """One mesh under one camera. Panels of the same `frame` show the same part of space; `close`: only that share
+    of its width, around `centre` in shares of its size, without a histogram."""
 
-    def __init__(self, path, title="", view=(25, -60), up="z", frame=None, close=0.0):
+    def __init__(self, path, title="", view=(25, -60), up="z", frame=None, close=0.0, centre=(0.5, 0.5)):
         self.points, self.faces = read_ply(path)
-        self.title, self.view, self.up, self.close = title, view, up, close
+        self.title, self.view, self.up, self.close, self.centre = title, view, up, close, centre
         self.frame = self if frame is None else frame
 
     def camera(self):
@@ -67,7 +67,7 @@ def window(panels):
 def show(axes, panel, low, high):
     camera, faces = panel.camera(), panel.faces
     if panel.close:
-        middle, half = (low + high) / 2, panel.close * max(high - low) / 2
+        middle, half = low + panel.centre * (high - low), panel.close * max(high - low) / 2
         low, high = middle - half, middle + half
         corners = camera[faces][:, :, :2]
         faces = faces[np.all((corners.max(1) > low) & (corners.min(1) < high), axis=1)]

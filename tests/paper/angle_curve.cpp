@@ -8,6 +8,7 @@
 // are not the paper's. Prints the curve and the processor seconds from the density to the last iteration as JSON;
 // RESULT is the last mesh; -: it is not written.
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <iostream>
 #include <stdexcept>
@@ -62,13 +63,25 @@ void OptimizeLocally(const Model &model, Remesh &remesh, int iterations, Workers
     PatchSchedule schedule(remesh, workers);
     Relocator relocator(model, remesh);
     DelaunayFlipper flipper(workers);
-    flipper.Run(remesh);
+    if (iterations > 0)
+        flipper.Run(remesh);
     for (int i = 0; i < iterations; ++i) {
         schedule.Changed();
         schedule.ForVertices([&](int v, int) { relocator.Relocate(v, PatchCentroid{remesh, false}); });
         flipper.Run(remesh);
         look();
     }
+}
+
+// In degrees, exact: the remesher's own SmallestAngle is an approximation.
+double LeastAngle(const Point (&p)[3])
+{
+    double least = Pi;
+    for (int k = 0; k < 3; ++k) {
+        const Point u = p[(k + 1) % 3] - p[k], w = p[(k + 2) % 3] - p[k];
+        least = std::min(least, std::atan2(Norm(u ^ w), u * w));
+    }
+    return least * 180 / Pi;
 }
 
 // The average smallest angles so far. The time that it takes to find them is not counted.
@@ -80,8 +93,8 @@ public:
         const std::clock_t start = std::clock();
         double sum = 0;
         for (const Triangle &T : remesh.mesh.triangle)
-            sum += SmallestAngle(remesh.position[T.v[0]], remesh.position[T.v[1]], remesh.position[T.v[2]]);
-        _degrees.push_back(sum / remesh.mesh.TriangleCount() * 180 / Pi);
+            sum += LeastAngle({remesh.position[T.v[0]], remesh.position[T.v[1]], remesh.position[T.v[2]]});
+        _degrees.push_back(sum / remesh.mesh.TriangleCount());
         _start += std::clock() - start;
     }
 

@@ -11,7 +11,8 @@ from common import MESHES, model
 REAL = os.path.isdir(MESHES)
 # `paper`: the name there; `table`: where its figures are; `name`: what stands for it; `why`: how far it does.
 Case = namedtuple("Case", "paper table name vertices why")
-View = namedtuple("View", "angles up", defaults=("z",))
+# Elevation and azimuth in degrees, the axis that points up, and where a close-up looks.
+View = namedtuple("View", "angles up centre", defaults=("z", (0.5, 0.5)))
 
 REAL_CASES = (
     Case("Joint", 1, "joint", 6000, "the same size and kind"),
@@ -40,9 +41,9 @@ SAMPLE_CASES = (
 )
 PLANK = Case("Plank", 0, "max_planck", 10000, "decimated, slivers and folded faces") if REAL else Case(
     "Plank", 0, "bust", 10000, "a noisy bust")
-VIEWS = {"joint": View((25, -60)), "julius_noisy": View((5, -20), "y"), "pig": View((25, -60), "y"),
+VIEWS = {"joint": View((25, -60)), "julius_noisy": View((5, -80), "y"), "pig": View((25, -60), "y"),
          "klein_bottle": View((25, -60)), "moai": View((10, 30), "y"), "lion_vase": View((10, 30), "y"),
-         "twist": View((40, -60)), "foot": View((25, -60)), "gargoyle": View((15, 45), "y"),
+         "twist": View((40, -60), "z", (0.3, 0.75)), "foot": View((25, -60)), "gargoyle": View((15, 45), "y"),
          "koala": View((20, 30), "y"), "max_planck": View((5, 150), "y"), "plate": View((50, -60))}
 USUAL_VIEW = View((25, -60))
 

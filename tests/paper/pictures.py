@@ -3,7 +3,7 @@
 import os
 import sys
 
-from models import plank, source, view
+from models import source, view
 from common import ROOT
 from curves import STAGES, stage_file
 from tables import ADAPTIVE, METHOD, result_file
@@ -22,7 +22,8 @@ COMPARED, MORE = "Moai", ("Lion", "Twist", "Foot", "Gargoyle", "Dog")
 
 def panel(path, label, case, frame=None, close=0.0):
     """With the number of vertices and the average smallest angle, found from the file alone."""
-    made = Panel(path, label, *view(case), frame=frame, close=close)
+    angles_of_view, up, centre = view(case)
+    made = Panel(path, label, angles_of_view, up, frame, close, centre)
     average = angles(made.points, made.faces).min(1).mean()
     made.title = f"{label}, close" if close else f"{label}\n{len(set(made.faces.flat)):,} vertices, {average:.1f}°"
     return made
@@ -70,8 +71,8 @@ def draw_more(cases, folder):
             histogram=True)
 
 
-def draw(cases, quick, methods, folder):
-    draw_stages(plank(quick), folder)
+def draw(cases, plank, methods, folder):
+    draw_stages(plank, folder)
     for number in SINGLE:
         draw_single(number, cases, folder)
     draw_compared(cases, methods, folder)

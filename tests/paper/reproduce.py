@@ -27,6 +27,8 @@ def arguments():
                         help="a tenth of the vertices, few seeds and rounds, no other remeshers")
     parser.add_argument("--peers", nargs="*", metavar="WORD",
                         help="of the other remeshers of ./run.sh bench peers those whose name has one of the words")
+    parser.add_argument("--redraw", action="store_true",
+                        help="only the pictures and the page, anew from the figures that are in the folder")
     parser.add_argument("--time-limit", type=float, default=120, help="wall seconds of one run (default 120)")
     parser.add_argument("--out", default=OUT, help="the folder to write (default build/paper)")
     return parser.parse_args()
@@ -34,6 +36,21 @@ def arguments():
 
 def main():
     options = arguments()
+    if options.redraw:
+        with open(data_file(options.out), encoding="utf-8") as text:
+            data = json.load(text)
+    else:
+        data = run(options)
+    write(data, options.out)
+    return 0
+
+
+def data_file(folder):
+    return os.path.join(folder, "paper.json")
+
+
+def run(options):
+    """All that is measured, kept in the folder."""
     shutil.rmtree(options.out, ignore_errors=True)
     os.makedirs(os.path.join(options.out, "meshes"))
     cases, plank = models.cases(options.quick), models.plank(options.quick)
@@ -43,22 +60,23 @@ def main():
     data["tables"] = {"printed": tables.printed(), **tables.measure_tables(cases, options.out, options)}
     print("curves", flush=True)
     data["curves"] = curves.measure_curves(plank, options.out, curves.QUICK if options.quick else curves.FULL)
-    with open(os.path.join(options.out, "paper.json"), "w", encoding="utf-8") as out:
+    with open(data_file(options.out), "w", encoding="utf-8") as out:
         json.dump(data, out, indent=1)
-    write(data, cases, plank, options)
-    return 0
+    return data
 
 
-def write(data, cases, plank, options):
+def write(data, folder):
+    """Tables, curves, pictures and the page from what was measured."""
+    cases, plank = models.cases(data["quick"]), models.plank(data["quick"])
     for number in (1, 2):
-        tables.write_csv(os.path.join(options.out, f"table_{number}.csv"),
+        tables.write_csv(os.path.join(folder, f"table_{number}.csv"),
                          tables.records(data["tables"], number, data["before"]))
-    curves.write_csv(os.path.join(options.out, "curves.csv"), data["curves"])
+    curves.write_csv(os.path.join(folder, "curves.csv"), data["curves"])
     print("pictures", flush=True)
-    curves.draw(data["curves"], options.out)
-    pictures.draw(cases, options.quick, [p["name"] for p in data["tables"]["peers"]], options.out)
-    paper_page.write(data, cases, plank, options.out)
-    print("page: " + os.path.join(options.out, "index.md"))
+    curves.draw(data["curves"], folder)
+    pictures.draw(cases, plank, [p["name"] for p in data["tables"]["peers"]], folder)
+    paper_page.write(data, cases, plank, folder)
+    print("page: " + os.path.join(folder, "index.md"))
 
 
 if __name__ == "__main__":

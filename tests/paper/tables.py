@@ -13,7 +13,7 @@ METHOD, ADAPTIVE, DEFAULT = "CCDM, paper's method", "CCDM, paper's method, curva
 # One setting of each; the first two are of the kind of [BK04], pyacvd is of that of [VCP08].
 OTHERS = ("MeshLab explicit, 20 iterations", "CGAL, 20 iterations", "mmgs", "Gmsh", "pyacvd 50, not moved")
 FIGURES = ("seconds", "angle_min_avg", "angle_min", "pct_lt30", "q_fb99_avg", "q_fb99_min", "error")
-FIELDS = ("table", "model", "stand_in", "before", "after", "method", "source", *FIGURES, "topology")
+FIELDS = ("table", "model", "stand_in", "before", "after", "method", "source", *FIGURES, "topology", "count_met")
 HEAD = ("model", "vertices", "method", "seconds", "∠ avg", "∠ min", "< 30° %", "aspect avg", "aspect min",
         "error 1e-3", "topology")
 TEXTS = ("model", "vertices", "method", "topology")
@@ -64,7 +64,7 @@ def measured(row, before):
     """A row of bench_peers.py with the paper's figures."""
     return {"table": row["table"], "model": row["paper"], "stand_in": row["model"], "before": before,
             "after": row["vertices"], "method": row["peer"], "source": "measured", "seconds": row["cpu"],
-            "error": 1e3 * row["hausdorff"], "topology": "kept" if row["topology_kept"] else "changed",
+            "error": 1e3 * row["hausdorff"], "topology": "kept" if row["topology_kept"] else "changed", "count_met": row["count_met"],
             **{key: row[key] for key in FIGURES[1:-1]}}
 
 
@@ -85,7 +85,8 @@ def cells(record):
     ours = record["source"] == "measured"
     count = [f"{n:,}" if n is not None else "?" for n in (record["before"], record["after"])]
     method = record["method"] if ours else "*" + record["method"].replace("*", "\\*") + ", printed*"
-    return [f"{record['model']}: {record['stand_in']}" if ours else record["model"], " – ".join(count),
+    off = " (off)" if ours and not record["count_met"] else ""
+    return [f"{record['model']}: {record['stand_in']}" if ours else record["model"], " – ".join(count) + off,
             method, f"{record['seconds']:.2f}", f"{record['angle_min_avg']:.2f}",
             f"{record['angle_min']:.2f}", f"{record['pct_lt30']:.2e}" if record["pct_lt30"] else "0",
             f"{record['q_fb99_avg']:.3f}", f"{record['q_fb99_min']:.3f}", f"{record['error']:.2f}",
