@@ -35,6 +35,18 @@ class Panel:
     def camera(self):
         return self.points @ rotation(*self.view, self.up).T
 
+    def visible(self):
+        """Which faces to draw: all, but of a closed surface whose faces agree only those turned to the camera. Faces
+        are sorted by their centroids, which is wrong for needles."""
+        a, b = self.faces.astype(np.int64).ravel(), np.roll(self.faces, -1, 1).astype(np.int64).ravel()
+        count = len(self.points)
+        if not np.array_equal(np.sort(a * count + b), np.sort(b * count + a)):
+            return np.ones(len(self.faces), bool)
+        corner = self.camera()[self.faces]
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        outward = np.sign((normal * (corner[:, 0] - corner[0, 0])).sum())
+        return outward * normal[:, 2] > 0
+
 
 def rotation(elevation, azimuth, up="z"):
     """Camera axes as rows: right, up, towards the viewer. The azimuth runs around the axis `up`."""
@@ -44,15 +56,16 @@ def rotation(elevation, azimuth, up="z"):
     return np.roll(np.stack([right, np.cross(back, right), back]), "zxy".index(up), axis=1)
 
 
-def draw(axes, camera, faces, colour=(0.62, 0.75, 0.9)):
+def draw(axes, camera, faces, count, colour=(0.62, 0.75, 0.9)):
+    """Triangles of a mesh or part of one that has `count` of them, those that cannot be seen included."""
     corners = camera[faces]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
     light = np.array([0.3, 0.5, 0.8]) / np.linalg.norm([0.3, 0.5, 0.8])
     shade = 0.35 + 0.65 * np.abs(normal @ light)
     order = np.argsort(corners[:, :, 2].mean(1))
-    width = 0.35 * min(1.0, (3000 / max(len(faces), 1)) ** 0.5) + 0.05
-    edges = "face" if len(faces) > MOST_EDGED else (0.1, 0.12, 0.2)
+    width = 0.35 * min(1.0, (3000 / max(count, 1)) ** 0.5) + 0.05
+    edges = "face" if count > MOST_EDGED else (0.1, 0.12, 0.2)
     axes.add_collection(PolyCollection(corners[order][:, :, :2], facecolors=np.outer(shade, colour)[order],
                                        edgecolors=edges, linewidths=width))
 
@@ -65,13 +78,14 @@ def window(panels):
 
 
 def show(axes, panel, low, high):
-    camera, faces = panel.camera(), panel.faces
+    camera, faces, visible = panel.camera(), panel.faces, panel.visible()
     if panel.close:
         middle, half = low + panel.centre * (high - low), panel.close * max(high - low) / 2
         low, high = middle - half, middle + half
         corners = camera[faces][:, :, :2]
-        faces = faces[np.all((corners.max(1) > low) & (corners.min(1) < high), axis=1)]
-    draw(axes, camera, faces)
+        inside = np.all((corners.max(1) > low) & (corners.min(1) < high), axis=1)
+        faces, visible = faces[inside], visible[inside]
+    draw(axes, camera, faces[visible], len(faces))
     axes.set_aspect("equal")
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])

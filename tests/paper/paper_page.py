@@ -11,20 +11,23 @@ try:
 except ImportError:
     markdown = None
 
-INTRODUCTION = """Tables and figures of *Isotropic Surface Remeshing Using Constrained Centroidal Delaunay Mesh* (Z. Chen,
-J. Cao, W. Wang, Computer Graphics Forum 31(7), 2012), made anew by this program, beside what the paper prints. The
-printed rows are another machine's (a laptop, 2.66 GHz) and other files' of the same or a like subject: their times
-and errors cannot be set against the measured ones, and ratios within each are what counts. *The paper's method* is
-`{method}`; the default mode is the project's own. Both add closing steps to what the paper describes."""
+INTRODUCTION = """Tables and figures of *Isotropic Surface Remeshing Using Constrained Centroidal Delaunay Mesh*
+(Z. Chen, J. Cao, W. Wang, Computer Graphics Forum 31(7), 2012), made anew by this program, beside what the
+paper prints. The printed rows are another machine's (a laptop, 2.66 GHz) and other files' of the same or a like
+subject: their times and errors cannot be set against the measured ones, and ratios within each are what counts.
+*The paper's method* is `{method}`; the default mode is the project's own. Both add closing steps to what the
+paper describes."""
 SAMPLES = """The real models are not at hand: the project's own samples stand for them, most of other subjects."""
 QUICK = """A short run: a tenth of the vertices, few seeds and rounds, none of the other remeshers. It shows that the
 page can be made, and says nothing about the method."""
 READING = """Seconds: user + system of the whole process on one core, one process at a time, reading and writing
-included, less the start of Python; one run each, of at most {time_limit:g} s. ∠ avg: average over the triangles of their smallest angle; ∠ min:
-smallest angle; < 30°: share of all angles; aspect ratio after [FB99]; error: Hausdorff distance, the larger of both
-directions, in 1e-3 of the bounding box's diagonal. The measured figures are by the project's `mesh_quality.h`, for
-all remeshers, with {distance_samples:,} points on each surface for the distance. Feature angle {feature_angle:g} degrees
-for all remeshers, uniform density for all but the row named after the curvature. Who takes an edge length got one that was calibrated until the count was within 3 %; "off" marks where that could not be had."""
+included, less the start of Python; one run each, of at most {time_limit:g} s. ∠ avg: average over the triangles
+of their smallest angle; ∠ min: smallest angle; < 30°: share of all angles; aspect ratio after [FB99]; error:
+Hausdorff distance, the larger of both directions, in 1e-3 of the bounding box's diagonal. The measured figures
+are by the project's `mesh_quality.h`, for all remeshers, with {distance_samples:,} points on each surface for
+the distance. Feature angle {feature_angle:g} degrees for all remeshers, uniform density for all but the row
+named after the curvature. Who takes an edge length got one that was calibrated until the count was within 3 %;
+"off" marks where that could not be had."""
 KINDS = """Of the paper's rivals, [BK04] is the kind of MeshLab's explicit remeshing and of CGAL's, 20 iterations as
 there; [VCP08] is that of pyacvd, with 50 vertices of the input for each of the result as there. None of the remeshers
 that pip and apt offer is [YLL\\*09] or [FAKG10]. Left out, for the time they take: the other remeshers and settings
@@ -94,11 +97,12 @@ def curves_section(data):
 
 def pictures_section():
     lines = ["", "## Figures 5 to 10", "", *paragraph(
-        "Each model before and after under one camera, with the number of vertices, the average smallest angle and all "
-        "angles; the results are those of the tables, in `meshes`. Of more than 30,000 triangles only the close-ups "
-        "have edges.")]
+        "Each model before and after under one camera, with the number of vertices, the average smallest angle and "
+        "all angles; the results are those of the tables, in `meshes`. Of more than 30,000 triangles only the "
+        "close-ups have edges.")]
     for number, (name, method, what) in SINGLE.items():
-        lines += ["", f"Figure {number}, {name}: {what}; {method}."] + image(f"figure_{number}.png", f"Figure {number}")
+        lines += ["", f"Figure {number}, {name}: {what}; {method}."]
+        lines += image(f"figure_{number}.png", f"Figure {number}")
     lines += ["", "Figure 9: the remeshers on one model."] + image("figure_9.png", "Figure 9")
     lines += ["", f"Figure 10: more models, inputs above; {tables.METHOD}."]
     return lines + image("figure_10.png", "Figure 10")

@@ -64,13 +64,14 @@ def measured(row, before):
     """A row of bench_peers.py with the paper's figures."""
     return {"table": row["table"], "model": row["paper"], "stand_in": row["model"], "before": before,
             "after": row["vertices"], "method": row["peer"], "source": "measured", "seconds": row["cpu"],
-            "error": 1e3 * row["hausdorff"], "topology": "kept" if row["topology_kept"] else "changed", "count_met": row["count_met"],
+            "error": 1e3 * row["hausdorff"], "topology": "kept" if row["topology_kept"] else "changed",
+            "count_met": row["count_met"],
             **{key: row[key] for key in FIGURES[1:-1]}}
 
 
 def records(data, number, before):
-    """All rows of one table: for each of the paper's models the printed ones, then the measured ones; `before`: vertices
-    of the models at hand."""
+    """All rows of one table: for each of the paper's models the printed ones, then the measured ones; `before`: the
+    vertices of the models at hand."""
     theirs = [r for r in data["printed"] if r["table"] == number]
     found = []
     for name in dict.fromkeys(r["model"] for r in theirs):
