@@ -8,7 +8,6 @@ figures 3(d), 4(c) and 4(d), the mean of 10 seeds, on all cores; figures 5 to 10
 import argparse
 import json
 import os
-import shutil
 import sys
 
 import models
@@ -51,8 +50,11 @@ def data_file(folder):
 
 def run(options):
     """All that is measured, kept in the folder."""
-    shutil.rmtree(options.out, ignore_errors=True)
-    os.makedirs(os.path.join(options.out, "meshes"))
+    meshes = os.path.join(options.out, "meshes")
+    os.makedirs(meshes, exist_ok=True)
+    for name in os.listdir(meshes):
+        if name.endswith(".ply"):
+            os.remove(os.path.join(meshes, name))  # which would pass for one of this run
     cases, plank = models.cases(options.quick), models.plank(options.quick)
     command = ["./run.sh paper", *sys.argv[1:]]
     data = {**provenance(" ".join(command)), "load": os.getloadavg()[0], "real": models.REAL, "quick": options.quick,
