@@ -16,6 +16,8 @@ usage: ./run.sh VERB
           bench scaling [--sizes N ...] [--repeats N], bench range, bench tradeoffs [--models M ...],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
+  paper   the paper's tables and figures made anew, beside its printed rows: build/paper/index.md;
+          [--quick] [--peers WORD ...] [--time-limit SECONDS] [--redraw]
   fuzz SECONDS
           random and spoilt meshes and files, for that long: what is found lies in build/fuzz/findings
   coverage
@@ -131,14 +133,19 @@ python_host() {
 # The plugins to build, each with the scalar type of its host.
 variants="2020.09:float;2022.02:double;2025.07:double"
 
-build() {
-    install_packages "${build_packages[@]}"
-    fetch_sdks
+# In build/: these targets, or everything.
+compile() {
     say "building"
     cmake --preset default "-DCCDM_PLUGIN_VARIANTS=$variants" >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
     mkdir -p build && mv build-configure.log build/configure.log
+    cmake --build --preset default -- -v "$@" >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
+}
+
+build() {
+    install_packages "${build_packages[@]}"
+    fetch_sdks
+    compile
     grep '^-- Plugin for MeshLab' build/configure.log || true
-    cmake --build --preset default -- -v >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
     filter_ccdm/make_host_tree.sh build/host build/plugins/2020.09/libfilter_ccdm.so
 }
 
@@ -288,11 +295,24 @@ bench() {
     esac
 }
 
+paper() {
+    install_packages "${build_packages[@]}" "${demo_packages[@]}" python3-markdown
+    fetch_first_sdk
+    compile ccdm_remesh measure_mesh angle_curve
+    case " $* " in
+    *" --quick "*) ;;
+    *) (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed" ;;
+    esac
+    [ -d ../shared/meshes ] || say "../shared/meshes is not there: the sample meshes stand for the paper's models"
+    /usr/bin/python3 tests/paper/reproduce.py "$@"
+}
+
 case "${1:-}" in
 demo) demo ;;
 test) run_tests ;;
 build) build ;;
 bench) bench "${@:2}" ;;
+paper) paper "${@:2}" ;;
 fuzz) fuzz "${2:-}" ;;
 coverage) coverage ;;
 mutants) mutants "${@:2}" ;;

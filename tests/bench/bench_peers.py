@@ -12,8 +12,10 @@ import argparse
 import json
 import math
 import os
+import shutil
 import sys
 import tempfile
+from collections import namedtuple
 
 import peers_in_readme
 import peers_page
@@ -22,9 +24,12 @@ from peers import all_peers
 
 FEATURE_ANGLE = 40  # degrees, the command line's default
 TIME_LIMIT = 300  # wall seconds of one run
+DISTANCE_SAMPLES = 1000000  # points on each surface
 LONG_RUN = 20  # processor seconds from which on a run is not repeated
 TOLERANCE = 0.03  # of the vertex count
 TRIES = 6
+Settings = namedtuple("Settings", "feature_angle repeats time_limit distance_samples",
+                      defaults=(FEATURE_ANGLE, 3, TIME_LIMIT, DISTANCE_SAMPLES))
 
 
 def pinned(command):
@@ -35,8 +40,8 @@ def pinned(command):
 class Bench:
     """One peer on one model, from the prepared input to its row."""
 
-    def __init__(self, peer, source, angle, folder):
-        self.peer, self.angle = peer, angle
+    def __init__(self, peer, source, settings, folder):
+        self.peer, self.settings = peer, settings
         self.target = os.path.join(folder, "result.ply")
         self.best = os.path.join(folder, "best.ply")
         self.input = peer.prepare(source, folder)
@@ -47,8 +52,8 @@ class Bench:
             if os.path.exists(path):
                 os.remove(path)
         environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        usage = usage_of(pinned(self.peer.command(self.input, self.target, size, self.angle)), TIME_LIMIT,
-                         env=environment)
+        command = self.peer.command(self.input, self.target, size, self.settings.feature_angle)
+        usage = usage_of(pinned(command), self.settings.time_limit, env=environment)
         start = 0.0
         if os.path.exists(self.target + ".start"):
             start = float(open(self.target + ".start", encoding="ascii").read())
@@ -73,11 +78,11 @@ class Bench:
             size *= math.exp(-off / slope)
         return best[1:]
 
-    def row(self, source, size, n, repeats):
+    def row(self, source, size, n):
         size, first = self.calibrate(size, n)
-        metrics = measure(source, self.best)
+        metrics = measure(source, self.best, samples=self.settings.distance_samples)
         runs = [first]
-        while len(runs) < repeats and first["cpu"] < LONG_RUN:
+        while len(runs) < self.settings.repeats and first["cpu"] < LONG_RUN:
             runs.append(self.run(size))
         return {"size": size, "runs": len(runs), **min(runs, key=lambda r: r["cpu"]), **metrics,
                 "count_met": abs(metrics["vertices"] / n - 1) <= TOLERANCE}
@@ -88,8 +93,8 @@ def first_size(peer, area, n):
     return math.sqrt(2 * area / (math.sqrt(3) * n)) if peer.slope < 0 else float(n)
 
 
-def bench_model(name, n, peers, options):
-    """Rows of all peers on one model; those that cannot be run say why."""
+def bench_model(name, n, peers, settings, keep=None):
+    """Rows of all peers on one model; those that cannot be run say why. `keep(peer)`: where its result goes."""
     source, rows, sizes = model(name), [], {}
     area = measure(source)["area"]
     for peer in peers:
@@ -99,8 +104,10 @@ def bench_model(name, n, peers, options):
             try:
                 if not peer.reason:
                     size = sizes.get(peer.family, first_size(peer, area, n))
-                    row.update(Bench(peer, source, options.feature_angle, folder).row(
-                        source, size, n, options.repeats))
+                    bench = Bench(peer, source, settings, folder)
+                    row.update(bench.row(source, size, n))
+                    if keep:
+                        shutil.move(bench.best, keep(peer))
                     sizes[peer.family] = row["size"]
             except (RuntimeError, OSError, ValueError) as fault:
                 row["reason"] = str(fault)
@@ -147,9 +154,10 @@ def main():
     peers = [p for k, p in enumerate(all_peers()) if k == 0 or not options.peers or any(
         word.lower() in p.name.lower() for word in options.peers)]
     install(peers)
+    settings = Settings(options.feature_angle, options.repeats)
     rows = []
     for name, n in cases(options.models):
-        rows += bench_model(name, n, peers, options)
+        rows += bench_model(name, n, peers, settings)
     data = {**provenance(" ".join(["./run.sh bench peers", *sys.argv[1:]])), "feature_angle": options.feature_angle,
             "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows}
     with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:

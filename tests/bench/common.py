@@ -13,10 +13,10 @@ from collections import namedtuple
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-PROGRAM = os.path.join(ROOT, "build", "bin", "ccdm_remesh")
-MEASURE = os.path.join(ROOT, "build", "bin", "measure_mesh")
+PROGRAM = os.environ.get("CCDM_REMESH", os.path.join(ROOT, "build", "bin", "ccdm_remesh"))
+MEASURE = os.path.join(os.path.dirname(PROGRAM), "measure_mesh")
 SERVER = os.path.join(ROOT, "build", "host", "bin", "meshlabserver")
-MESHES = os.path.join(ROOT, "..", "shared", "meshes")
+MESHES = os.path.join(os.environ.get("CCDM_SHARED", os.path.join(ROOT, "..", "shared")), "meshes")
 OUT = os.path.join(ROOT, "build", "bench")
 # Models and vertex counts of a comparison: the real ones, and what stands for them where they are not at hand.
 MODELS = (("joint", 6000), ("twist", 5000), ("wingnut", 6000), ("pig", 10000), ("klein_bottle", 5000),
@@ -74,9 +74,10 @@ def cases(names=None):
     return [case for case in (MODELS if os.path.isdir(MESHES) else SAMPLES) if not names or case[0] in names]
 
 
-def measure(*files):
-    """What measure_mesh prints of one mesh, or of a result against its original."""
-    done = subprocess.run([MEASURE, *files], capture_output=True, text=True, check=False)
+def measure(*files, samples=None):
+    """What measure_mesh prints of one mesh, or of a result against its original by that many samples."""
+    extra = [str(samples)] if samples else []
+    done = subprocess.run([MEASURE, *files, *extra], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError("the result cannot be measured: " + done.stderr.strip().replace(ROOT + os.sep, ""))
     return json.loads(done.stdout)

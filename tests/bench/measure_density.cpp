@@ -18,7 +18,7 @@
 #include <vcg/complex/algorithms/closest.h>
 #include <vcg/space/index/grid_static_ptr.h>
 
-#include "mesh_io.h"
+#include "read_tables.h"
 
 namespace {
 
@@ -28,25 +28,6 @@ using vcg::ccdm::InputMesh;
 using vcg::ccdm::MeshTables;
 using vcg::ccdm::Point;
 using vcg::ccdm::ReferenceSurface;
-
-MeshTables Read(const std::string &path, bool needsQuality)
-{
-    Mesh mesh;
-    const auto read = ccdm_remesh::ReadMesh(path, mesh);
-    if (!read.fault.empty() || (needsQuality && !read.hasQuality))
-        throw std::runtime_error(path + ": " + (read.fault.empty() ? "no value per vertex" : read.fault));
-    MeshTables tables;
-    for (const auto &v : mesh.vert) {
-        tables.position.push_back(v.cP());
-        if (needsQuality)
-            tables.field.push_back(static_cast<double>(v.cQ()));
-    }
-    const auto *first = mesh.vert.data();
-    for (const Face &f : mesh.face)
-        tables.face.push_back(
-            {static_cast<int>(f.cV(0) - first), static_cast<int>(f.cV(1) - first), static_cast<int>(f.cV(2) - first)});
-    return tables;
-}
 
 // Finds the face of the surface that is nearest to a point.
 class NearestFace
@@ -92,7 +73,7 @@ double At(const ReferenceSurface &surface, int face, const Point &p, const std::
 
 void Print(const std::string &inputPath, const std::string &resultPath, bool quality, double angle, double gradation)
 {
-    const MeshTables given = Read(inputPath, quality), result = Read(resultPath, false);
+    const MeshTables given = ReadTables(inputPath, quality), result = ReadTables(resultPath, false);
     const InputMesh input(given);
     if (!input.refusal.empty())
         throw std::runtime_error(inputPath + ": " + input.refusal);

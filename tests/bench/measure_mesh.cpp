@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// measure_mesh MESH, or measure_mesh ORIGINAL RESULT: any program's result by the project's own metrics, as JSON.
+// measure_mesh MESH, or measure_mesh ORIGINAL RESULT [SAMPLES]: any program's result by the project's own metrics, as
+// JSON. SAMPLES: points on each surface from which the distances are measured.
 //
 // Angles in degrees, shares in percent, distances relative to the diagonal of the original's bounding box.
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -21,7 +23,7 @@ using ccdm_remesh::Mesh;
 using Quality = vcg::tri::MeshQuality<Mesh>;
 using vcg::tri::MeshQualityReport;
 
-constexpr int distanceSamples = 1000000;
+constexpr int usualSamples = 1000000;
 constexpr int binWidth = 2; // degrees
 
 void Read(const std::string &path, Mesh &mesh)
@@ -53,6 +55,7 @@ Json QualityJson(const Mesh &mesh)
     j["angle_min"] = q.angleMin;
     j["pct_lt30"] = q.pctLt30;
     j["q_fb99_avg"] = q.qFb99Avg;
+    j["q_fb99_min"] = q.qFb99Min;
     j["pct_valence6"] = q.pctValence6;
     j["folded_edges"] = q.foldedEdges;
     j["euler"] = q.euler;
@@ -64,14 +67,14 @@ Json QualityJson(const Mesh &mesh)
     return j;
 }
 
-Json Compare(const Mesh &original, const Mesh &result)
+Json Compare(const Mesh &original, const Mesh &result, int samples)
 {
     Json before = QualityJson(original), j = QualityJson(result);
     bool kept = true;
     for (const char *key : {"euler", "components", "boundary_loops", "orientable", "manifold"})
         kept = kept && before[key] == j[key];
     j["topology_kept"] = kept;
-    const auto d = Quality::Distance(original, result, distanceSamples);
+    const auto d = Quality::Distance(original, result, samples);
     j["hausdorff"] = d.hausdorff;
     j["rms"] = d.rms;
     j["angle_histogram"] = AngleHistogram(result);
@@ -82,16 +85,17 @@ Json Compare(const Mesh &original, const Mesh &result)
 
 int main(int argc, char **argv)
 {
-    if (argc != 2 && argc != 3) {
-        std::cerr << "usage: measure_mesh MESH | measure_mesh ORIGINAL RESULT\n";
+    const int samples = argc == 4 ? std::atoi(argv[3]) : usualSamples;
+    if (argc < 2 || argc > 4 || samples < 1) {
+        std::cerr << "usage: measure_mesh MESH | measure_mesh ORIGINAL RESULT [SAMPLES]\n";
         return 2;
     }
     try {
         Mesh first, second;
         Read(argv[1], first);
-        if (argc == 3)
+        if (argc > 2)
             Read(argv[2], second);
-        std::cout << (argc == 3 ? Compare(first, second) : QualityJson(first)).dump() << '\n';
+        std::cout << (argc > 2 ? Compare(first, second, samples) : QualityJson(first)).dump() << '\n';
     } catch (const std::exception &e) {
         std::cerr << e.what() << '\n';
         return 1;

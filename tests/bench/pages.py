@@ -54,8 +54,8 @@ def plain_ticks(axis):
     axis.set_minor_formatter(FuncFormatter(lambda x, _: ""))
 
 
-def save(figure, name):
-    os.makedirs(PICTURES, exist_ok=True)
+def save(figure, name, folder=PICTURES):
+    os.makedirs(folder, exist_ok=True)
     figure.tight_layout()
-    figure.savefig(os.path.join(PICTURES, name), dpi=90)
+    figure.savefig(os.path.join(folder, name), dpi=90)
     plt.close(figure)
