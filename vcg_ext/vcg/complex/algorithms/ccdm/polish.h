@@ -116,8 +116,8 @@ public:
                         for (const int v : around) {
                             _remesh.mesh.GatherStar(v, _star);
                             const std::vector<int> outer = _star.outer;
-                            for (const int o : outer)
-                                opened = Open(o) || opened;
+                            for (std::size_t k = 0; k < std::min(outer.size(), MostTried); ++k)
+                                opened = Open(outer[k]) || opened;
                         }
                     improved = improved || opened;
                 }
@@ -129,6 +129,7 @@ public:
 
 private:
     static constexpr int Shakes = 12;
+    static constexpr std::size_t MostTried = 12; // of a star: at the tip of needles there can be hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
     const Model &_model;
@@ -174,7 +175,7 @@ private:
         for (int i = 0; i < 3 && !improved; ++i) {
             _remesh.mesh.GatherStar(T.v[i], _star);
             const std::vector<Side> around = _star.corner;
-            for (std::size_t k = 0; k < around.size() && !improved; ++k)
+            for (std::size_t k = 0; k < std::min(around.size(), MostTried) && !improved; ++k)
                 improved = FlipAndShift(MakeSide(SideTriangle(around[k]), Next(SideEdge(around[k]))));
         }
         return improved;
