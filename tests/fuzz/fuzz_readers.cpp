@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bytes as a mesh file: read, remeshed if it is small, written and read again. The first byte is the format's.
+// Bytes as a mesh file; the first one is the format's. Read, written and read again; remeshed in between.
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -17,9 +19,6 @@ namespace fuzz {
 namespace {
 
 using ccdm_remesh::Mesh;
-using vcg::ccdm::Status;
-
-constexpr int MostFaces = 60;
 
 // A file of this process, in memory where there is such a file system.
 class ScratchFile
@@ -37,14 +36,22 @@ public:
     std::string path;
 };
 
+// The writers are for results of the remesher.
+bool IsFinite(const Mesh &mesh)
+{
+    return std::all_of(mesh.vert.begin(), mesh.vert.end(), [](const ccdm_remesh::Vertex &v) {
+        return std::isfinite(v.cP()[0]) && std::isfinite(v.cP()[1]) && std::isfinite(v.cP()[2]);
+    });
+}
+
 // Written and read again, a mesh is the same.
-void GoThereAndBack(Mesh &mesh, const char *extension)
+void GoThereAndBack(const Mesh &mesh, const char *extension)
 {
     const ScratchFile file(extension);
     const std::string fault = ccdm_remesh::WriteMesh(file.path, mesh);
     const bool single = std::strcmp(extension, "stl") == 0; // has neither numbers nor double precision
     if (!fault.empty()) {
-        Expect(single, "a result could not be written");
+        Expect(single, "a mesh could not be written");
         return;
     }
     Mesh again;
@@ -55,9 +62,9 @@ void GoThereAndBack(Mesh &mesh, const char *extension)
         Expect(again.vert[v].cP() == mesh.vert[v].cP(), "a coordinate changed in a file");
 }
 
-} // namespace
-
-void RunReaders(const std::uint8_t *data, std::size_t size)
+// Calls use(mesh, extension) if the bytes are a file that can be read and has faces.
+template <class Use>
+void ReadBytes(const std::uint8_t *data, std::size_t size, const Use &use)
 {
     if (size == 0)
         return;
@@ -67,18 +74,33 @@ void RunReaders(const std::uint8_t *data, std::size_t size)
     std::ofstream(file.path, std::ios::binary)
         .write(reinterpret_cast<const char *>(data + 1), static_cast<std::streamsize>(size - 1));
     Mesh mesh;
-    const ccdm_remesh::ReadResult read = ccdm_remesh::ReadMesh(file.path, mesh);
-    if (!read.fault.empty() || mesh.FN() > MostFaces)
-        return;
-    vcg::ccdm::Params params;
-    params.vertexCount = 4 + data[0] / 16;
-    params.globalIterations = 0;
-    params.threads = 1;
-    Mesh result;
-    const vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(mesh, result, params);
-    Expect(report.status == Status::Done || !report.message.empty(), "a refusal without a reason");
-    if (report.status == Status::Done)
-        GoThereAndBack(result, extension);
+    if (ccdm_remesh::ReadMesh(file.path, mesh).fault.empty() && mesh.FN() > 0)
+        use(mesh, extension);
+}
+
+} // namespace
+
+void RunReaders(const std::uint8_t *data, std::size_t size)
+{
+    ReadBytes(data, size, [](const Mesh &mesh, const char *extension) {
+        if (IsFinite(mesh))
+            GoThereAndBack(mesh, extension);
+    });
+}
+
+void RunFile(const std::uint8_t *data, std::size_t size)
+{
+    ReadBytes(data, size, [&](const Mesh &mesh, const char *extension) {
+        vcg::ccdm::Params params;
+        params.vertexCount = 4 + data[0] / 16;
+        params.globalIterations = 0;
+        params.threads = 1;
+        Mesh result;
+        const vcg::ccdm::Report report = vcg::tri::CCDMRemeshing<Mesh>::Do(mesh, result, params);
+        Expect(report.status == vcg::ccdm::Status::Done || !report.message.empty(), "a refusal without a reason");
+        if (report.status == vcg::ccdm::Status::Done)
+            GoThereAndBack(result, extension);
+    });
 }
 
 } // namespace fuzz

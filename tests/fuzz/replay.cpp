@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a target on files, without a fuzzer: replay remesher|readers FILE...
+// Runs a target on files, without a fuzzer: replay remesher|readers|file FILE...
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -7,11 +7,26 @@
 
 #include "fuzz/targets.h"
 
+namespace {
+
+using Target = void (*)(const std::uint8_t *, std::size_t);
+
+Target TargetOf(const char *name)
+{
+    if (std::strcmp(name, "remesher") == 0)
+        return fuzz::RunRemesher;
+    if (std::strcmp(name, "readers") == 0)
+        return fuzz::RunReaders;
+    return std::strcmp(name, "file") == 0 ? fuzz::RunFile : nullptr;
+}
+
+} // namespace
+
 int main(int argc, char **argv)
 {
-    const bool remesher = argc > 2 && std::strcmp(argv[1], "remesher") == 0;
-    if (argc < 3 || (!remesher && std::strcmp(argv[1], "readers") != 0)) {
-        std::fprintf(stderr, "usage: replay remesher|readers FILE...\n");
+    const Target target = argc > 2 ? TargetOf(argv[1]) : nullptr;
+    if (target == nullptr) {
+        std::fprintf(stderr, "usage: replay remesher|readers|file FILE...\n");
         return 2;
     }
     for (int k = 2; k < argc; ++k) {
@@ -23,8 +38,7 @@ int main(int argc, char **argv)
         const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
         std::printf("%s\n", argv[k]);
         std::fflush(stdout);
-        (remesher ? fuzz::RunRemesher : fuzz::RunReaders)(reinterpret_cast<const std::uint8_t *>(bytes.data()),
-                                                          bytes.size());
+        target(reinterpret_cast<const std::uint8_t *>(bytes.data()), bytes.size());
     }
     return 0;
 }

@@ -14,8 +14,11 @@ namespace fuzz {
 /// Bytes as a small mesh and parameters, remeshed.
 void RunRemesher(const std::uint8_t *data, std::size_t size);
 
-/// Bytes as a mesh file, the first one as its format: read, remeshed, written and read again.
+/// Bytes as a mesh file, the first one as its format: read, written and read again.
 void RunReaders(const std::uint8_t *data, std::size_t size);
+
+/// The same, and remeshed before it is written.
+void RunFile(const std::uint8_t *data, std::size_t size);
 
 inline void Expect(bool holds, const std::string &what)
 {

@@ -302,6 +302,7 @@ public:
     Deviation Measure(int samples)
     {
         const double squares = Sample(samples);
+        _queriesLeft = std::min(MostQueries, QueriesPerSample * samples);
         Refine();
         return {std::sqrt(_largest), samples > 0 ? std::sqrt(squares / samples) : 0};
     }
@@ -313,9 +314,9 @@ private:
     std::vector<float> _faceMax; // largest squared distance seen in each face
     double _largest = 0;
     int _hint = -1;
-    int _queries = 0;
+    long long _queriesLeft = 0;
 
-    static constexpr int MostQueries = 200000;
+    static constexpr long long MostQueries = 200000, QueriesPerSample = 20;
 
     double Query(const Vector &p)
     {
@@ -385,9 +386,9 @@ private:
     // largest so far is done.
     void Search(const Vector &a, const Vector &b, const Vector &c, int depth)
     {
-        if (depth == 0 || _queries == MostQueries)
+        if (depth == 0 || _queriesLeft <= 0)
             return;
-        ++_queries;
+        --_queriesLeft;
         const Vector middle = (a + b + c) / 3.0;
         const double radius =
             std::sqrt(std::max({(a - middle).SquaredNorm(), (b - middle).SquaredNorm(), (c - middle).SquaredNorm()}));
