@@ -220,7 +220,7 @@ fuzz() {
     cmake --build build/fuzz --target fuzz_remesher fuzz_readers >build/fuzz/build.log ||
         { grep -E 'error|FAILED' -A5 build/fuzz/build.log; fail "the build failed"; }
     for target in remesher readers; do
-        mkdir -p "build/fuzz/corpus-$target"
+        mkdir -p "build/fuzz/corpus-$target" "tests/fuzz/corpus/$target"
         # The files that once failed are seeds.
         UBSAN_OPTIONS=print_stacktrace=1 build/fuzz/bin/fuzz_$target "build/fuzz/corpus-$target" \
             "tests/fuzz/corpus/$target" -artifact_prefix=build/fuzz/findings/$target- -max_len=2000 -timeout=120 \

@@ -81,7 +81,10 @@ TEST(SelfIntersections, OfFacesThatShareNothingAVertexAnEdge)
     const auto with = [&](std::initializer_list<shapes::P> more, const shapes::F &face) {
         shapes::Shape s = {corners, {{0, 1, 2}, face}};
         s.points.insert(s.points.end(), more);
-        return Found(s).pairs;
+        const auto pairs = Found(s).pairs;
+        std::swap(s.faces[0], s.faces[1]);
+        EXPECT_EQ(Found(s).pairs, pairs);
+        return pairs;
     };
     EXPECT_EQ(with({{1, 1, -1}, {1, 1, 1}, {5, 5, 1}}, {3, 4, 5}), 1);
     EXPECT_EQ(with({{1, 1, -1}, {1, 1, 1}}, {0, 3, 4}), 1);
