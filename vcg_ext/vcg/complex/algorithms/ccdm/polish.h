@@ -129,7 +129,7 @@ public:
 
 private:
     static constexpr int Shakes = 12;
-    static constexpr std::size_t MostTried = 12; // of a star: at the tip of needles there can be hundreds
+    static constexpr std::size_t MostTried = 12;              // of a star: at the tip of needles there can be hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
     const Model &_model;
