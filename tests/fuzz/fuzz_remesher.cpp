@@ -45,14 +45,22 @@ Params ParamsFromBytes(Bytes &in)
     return p;
 }
 
-void CheckResult(const Report &report, const Params &params, const MeshTables &result)
+int Unused(const MeshTables &mesh)
+{
+    const auto size = static_cast<int>(mesh.position.size());
+    return size - CountTopology(mesh.face, size).vertices;
+}
+
+void CheckResult(const Report &report, const Params &params, const MeshTables &input, const MeshTables &result)
 {
     const auto t = CountTopology(result.face, static_cast<int>(result.position.size()));
-    Expect(t.vertices == static_cast<int>(result.position.size()), "a vertex of the result is in no face");
+    // What is not selected stays, unused vertices too.
+    Expect(Unused(result) <= (params.selectedFacesOnly ? Unused(input) : 0), "a vertex of the result is in no face");
     for (const Point &p : result.position)
         Expect(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]), "a coordinate is not finite");
     if (params.vertexCount != 0)
-        Expect(t.vertices == params.vertexCount + report.extraVertices && report.extraVertices >= 0,
+        Expect(static_cast<int>(result.position.size()) == params.vertexCount + report.extraVertices &&
+                   report.extraVertices >= 0,
                "the vertex count is not the one reported");
     if (params.selectedFacesOnly)
         return; // the rest of the mesh may be no surface
@@ -85,7 +93,7 @@ void RunRemesher(const std::uint8_t *data, std::size_t size)
     const Report report = params.selectedFacesOnly ? SelectionRemesher(params, nullptr).Run(input, chosen, output)
                                                    : TargetSearch(params, nullptr).Run(input, output);
     if (report.status == Status::Done) {
-        CheckResult(report, params, output);
+        CheckResult(report, params, input, output);
     } else {
         Expect(!report.message.empty(), "a refusal without a reason");
         Expect(report.status != Status::Cancelled, "cancelled by nobody");

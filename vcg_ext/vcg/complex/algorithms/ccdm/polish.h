@@ -19,11 +19,14 @@ namespace ccdm {
 class Polish
 {
 public:
-    Polish(const Model &model, Remesh &remesh) : Polish(model, remesh, 50 + remesh.VertexCount() / 50) {}
+    Polish(const Model &model, Remesh &remesh)
+        : Polish(model, remesh, std::min(10 + remesh.VertexCount() / 5, 50 + remesh.VertexCount() / 50))
+    {
+    }
     /// `failures`: how many attempts at triangles may be in vain.
     Polish(const Model &model, Remesh &remesh, int failures)
         : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh), _failuresLeft(failures),
-          _searchesLeft(2000 + 4LL * remesh.VertexCount())
+          _searchesLeft(200 + 4LL * remesh.VertexCount())
     {
     }
 
