@@ -19,14 +19,11 @@ namespace ccdm {
 class Polish
 {
 public:
-    Polish(const Model &model, Remesh &remesh)
-        : Polish(model, remesh, std::min(10 + remesh.VertexCount() / 5, 50 + remesh.VertexCount() / 50))
-    {
-    }
+    Polish(const Model &model, Remesh &remesh) : Polish(model, remesh, 50 + remesh.VertexCount() / 50) {}
     /// `failures`: how many attempts at triangles may be in vain.
     Polish(const Model &model, Remesh &remesh, int failures)
         : _model(model), _remesh(remesh), _relocator(model, remesh), _patch(model, remesh), _failuresLeft(failures),
-          _searchesLeft(200 + 4LL * remesh.VertexCount())
+          _searchesLeft(2000 + 4LL * remesh.VertexCount())
     {
     }
 
@@ -132,7 +129,7 @@ public:
 
 private:
     static constexpr int Shakes = 12;
-    static constexpr std::size_t MostTried = 12;              // of a star: at the tip of needles there can be hundreds
+    static constexpr std::size_t MostTried = 96; // of a star: at the tip of needles there can be many hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
     const Model &_model;
