@@ -86,7 +86,7 @@ def draw(rows, option, keys, name):
         axes.set_xlabel("--" + option)
         axes.set_ylabel(label)
         axes.grid(alpha=0.3)
-    panels[-1].legend(fontsize=7)
+    panels[-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
     save(figure, name)
 
 
