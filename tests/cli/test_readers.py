@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of every format as other programs write them: one sheet in many spellings makes one result."""
 import json
+import os
 import struct
 
 import plyfile
@@ -115,3 +116,14 @@ def test_polygons_that_are_not_convex_are_covered_once(remesh, tmp_path):
                       for a, b, c in (f["vertex_indices"] for f in content["face"]))
         # Corners that turn by less than the feature angle are cut.
         assert covered == pytest.approx(area, rel=0.01)
+
+
+def test_needles_that_took_minutes(remesh, tmp_path):
+    """A file that was fuzzed: its first byte names the format. Without the sanitizers, as it was only slow."""
+    corpus = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "fuzz", "corpus")
+    source = tmp_path / "needles.stl"
+    with open(os.path.join(corpus, "slow", "stl_of_needles_1e38_wide"), "rb") as file:
+        source.write_bytes(file.read()[1:])
+    done = remesh(source, tmp_path / "o.ply", "-n", 4, "--global-iterations", 0)
+    assert done.returncode in (0, 6), done.stderr
+    assert (done.returncode == 0) == (tmp_path / "o.ply").exists()
