@@ -220,12 +220,12 @@ fuzz() {
     cmake --build build/fuzz --target fuzz_remesher fuzz_readers >build/fuzz/build.log ||
         { grep -E 'error|FAILED' -A5 build/fuzz/build.log; fail "the build failed"; }
     for target in remesher readers; do
-        mkdir -p "build/fuzz/corpus-$target" "tests/fuzz/corpus/$target"
+        mkdir -p "build/fuzz/corpus-$target"
         # The files that once failed are seeds.
         UBSAN_OPTIONS=print_stacktrace=1 build/fuzz/bin/fuzz_$target "build/fuzz/corpus-$target" \
             "tests/fuzz/corpus/$target" -artifact_prefix=build/fuzz/findings/$target- -max_len=2000 -timeout=120 \
-            -report_slow_units=120 -len_control=0 \
-            -rss_limit_mb=2000 -malloc_limit_mb=1000 -max_total_time="$seconds" -print_final_stats=1 \
+            -report_slow_units=120 -len_control=0 -rss_limit_mb=2000 -malloc_limit_mb=1000 \
+            -max_total_time="$seconds" -print_final_stats=1 \
             >"build/fuzz/$target.log" 2>&1 &
     done
     wait

@@ -7,7 +7,6 @@ Remeshing" with 20 iterations, its edge length calibrated until the vertex count
 in turn, three times, the median counts. Writes build/bench/hosts.json and the section on hosts of
 tests/bench/README.md.
 """
-import json
 import os
 import statistics
 import subprocess
@@ -16,7 +15,7 @@ import tempfile
 import time
 
 import pages
-from common import OUT, PROGRAM, SERVER, count_vertices, cpu_seconds, model, provenance
+from common import PROGRAM, SERVER, count_vertices, cpu_seconds, model, provenance, write_figures
 
 CASES = (("joint", 6000, 40), ("foot", 6000, 180), ("bunny_scan", 10000, 180), ("igea", 20000, 180))
 RUNS = 3
@@ -118,7 +117,6 @@ def write_section(rows):
 
 
 def main():
-    os.makedirs(OUT, exist_ok=True)
     display, name = start_display()
     rows = []
     try:
@@ -131,8 +129,7 @@ def main():
                       f"{row['explicit_n']:>8}{row['ratio']:>8.3f}", flush=True)
     finally:
         display.terminate()
-    with open(os.path.join(OUT, "hosts.json"), "w", encoding="ascii") as out:
-        json.dump(rows, out, indent=1)
+    write_figures("hosts.json", rows)
     write_section(rows)
     return 0
 

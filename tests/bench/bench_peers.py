@@ -9,7 +9,6 @@ cannot be installed, fails or takes too long is a row with the reason. All resul
 project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's table.
 """
 import argparse
-import json
 import math
 import os
 import shutil
@@ -19,7 +18,7 @@ from collections import namedtuple
 
 import peers_in_readme
 import peers_page
-from common import OUT, cases, measure, model, provenance, usage_of
+from common import cases, measure, model, provenance, usage_of, write_figures
 from peers import all_peers
 
 FEATURE_ANGLE = 40  # degrees, the command line's default
@@ -150,7 +149,6 @@ def arguments():
 
 def main():
     options = arguments()
-    os.makedirs(OUT, exist_ok=True)
     peers = [p for k, p in enumerate(all_peers()) if k == 0 or not options.peers or any(
         word.lower() in p.name.lower() for word in options.peers)]
     install(peers)
@@ -160,8 +158,7 @@ def main():
         rows += bench_model(name, n, peers, settings)
     data = {**provenance(" ".join(["./run.sh bench peers", *sys.argv[1:]])), "feature_angle": options.feature_angle,
             "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows}
-    with open(os.path.join(OUT, "peers.json"), "w", encoding="utf-8") as out:
-        json.dump(data, out, indent=1)
+    write_figures("peers.json", data)
     peers_page.write(data)
     peers_in_readme.write()
     print("\n".join(peers_page.conclusions(data)))

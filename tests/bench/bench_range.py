@@ -10,9 +10,9 @@ import sys
 import tempfile
 
 import pages
-from common import OUT, PROGRAM, count_vertices, model, provenance, usage_of
+from common import PROGRAM, cases, count_vertices, model, provenance, usage_of, write_figures
 
-MODELS = ("joint", "twist", "moai", "bunny_scan", "igea")
+MODELS = ("joint", "twist", "moai", "bunny_scan", "igea", "cad_part", "twisted_bar", "bumpy", "bust")  # those at hand
 FEW = (4, 40, 400)
 
 TEXT = """Processor seconds of whole runs of the default on one thread, reading and writing included, from 4 vertices
@@ -55,12 +55,10 @@ def section(data):
 
 
 def main():
-    os.makedirs(OUT, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         data = {**provenance(" ".join(["./run.sh bench range", *sys.argv[1:]])),
-                "models": [bench_model(name, folder) for name in MODELS]}
-    with open(os.path.join(OUT, "range.json"), "w", encoding="utf-8") as out:
-        json.dump(data, out, indent=1)
+                "models": [bench_model(name, folder) for name, _ in cases(MODELS)]}
+    write_figures("range.json", data)
     pages.write_section("range", section(data))
     return 0
 

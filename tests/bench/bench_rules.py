@@ -8,14 +8,13 @@ wanted one for several gammas. Seconds are processor seconds of the whole proces
 writing included. Writes build/bench/rules.json, tests/bench/RULES.md and its pictures.
 """
 import argparse
-import json
 import os
 import sys
 import tempfile
 
 import density_slope
 import rules_page
-from common import MESHES, OUT, PROGRAM, cases, measure, model, provenance, usage_of
+from common import MESHES, PROGRAM, cases, measure, model, provenance, usage_of, write_figures
 from density_slope import np, read_ply
 
 FEATURE_ANGLE = 40  # degrees, the command line's default
@@ -126,7 +125,6 @@ def arguments():
 
 def main():
     options = arguments()
-    os.makedirs(OUT, exist_ok=True)
     models = cases(options.models)
     analytic = [ANALYTIC] if not options.models or ANALYTIC[0] in options.models else []
     data = {**provenance(" ".join(["./run.sh bench rules", *sys.argv[1:]])), "feature_angle": FEATURE_ANGLE,
@@ -139,8 +137,7 @@ def main():
             data["time"] = bench_time(runner, [case for case in models if case[0] in TIME_MODELS])
         if "slope" in options.parts:
             data["slope"] = bench_slope(runner, [case for case in models if case[0] in SLOPE_MODELS] + analytic)
-    with open(os.path.join(OUT, "rules.json"), "w", encoding="utf-8") as out:
-        json.dump(data, out, indent=1)
+    write_figures("rules.json", data)
     rules_page.write(data)
     return 0
 

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 import scaling_page
-from common import OUT, PROGRAM, ROOT, model, provenance, usage_of
+from common import PROGRAM, ROOT, model, provenance, usage_of, write_figures
 
 sys.path.insert(0, os.path.join(ROOT, "sample_meshes"))
 import numpy as np
@@ -116,13 +116,11 @@ def arguments():
 
 def main():
     options = arguments()
-    os.makedirs(OUT, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         data = {**provenance(" ".join(["./run.sh bench scaling", *sys.argv[1:]])),
                 "growth": bench_inputs(folder, options.sizes, options.repeats),
                 "cost": bench_cost(options.sizes, folder)}
-    with open(os.path.join(OUT, "scaling.json"), "w", encoding="utf-8") as out:
-        json.dump(data, out, indent=1)
+    write_figures("scaling.json", data)
     scaling_page.write(data)
     return 0
 

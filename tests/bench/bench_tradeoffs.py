@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 import tradeoffs_page
-from common import OUT, PROGRAM, cases, measure, model, provenance, usage_of
+from common import PROGRAM, cases, measure, model, provenance, usage_of, write_figures
 
 MODELS = ("joint", "wingnut", "pig", "moai", "bunny_scan", "koala", "cad_part", "bumpy", "bust")
 SWEEPS = {"min-angle": (0, 20, 30, 35, 40, 42, 44), "approximation": (0, 0.25, 0.5, 0.6, 0.75, 1)}
@@ -36,13 +36,11 @@ def main():
     parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS, metavar="MODEL",
                         help="only these, if at hand, of: " + ", ".join(MODELS))
     options = parser.parse_args()
-    os.makedirs(OUT, exist_ok=True)
     data = provenance(" ".join(["./run.sh bench tradeoffs", *sys.argv[1:]]))
     with tempfile.TemporaryDirectory() as folder:
         for option, values in SWEEPS.items():
             data[option] = [run(name, n, option, value, folder) for name, n in cases(options.models) for value in values]
-    with open(os.path.join(OUT, "tradeoffs.json"), "w", encoding="utf-8") as out:
-        json.dump(data, out, indent=1)
+    write_figures("tradeoffs.json", data)
     tradeoffs_page.write(data)
     return 0
 

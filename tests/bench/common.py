@@ -94,6 +94,21 @@ def provenance(command):
     return {"command": command, "date": datetime.date.today().isoformat(), "machine": machine()}
 
 
+def write_figures(name, data):
+    """Keeps what was measured, in build/bench."""
+    os.makedirs(OUT, exist_ok=True)
+    with open(os.path.join(OUT, name), "w", encoding="utf-8") as out:
+        json.dump(data, out, indent=1)
+
+
+def put_between(path, begin, end, lines):
+    """Replaces what a page has between two marks."""
+    with open(path, encoding="utf-8") as text:
+        before, rest = text.read().split(begin)
+    with open(path, "w", encoding="utf-8") as out:
+        out.write(before + "\n".join([begin, "", *lines, "", end]) + rest.split(end)[1])
+
+
 def count_vertices(path):
     head = open(path, "rb").read(2000).decode("latin1")
     return int(head.split("element vertex ")[1].split()[0])

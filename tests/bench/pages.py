@@ -9,7 +9,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from common import HERE
+from common import HERE, put_between
 
 README = os.path.join(HERE, "README.md")
 PICTURES = os.path.join(HERE, "pictures")
@@ -33,6 +33,14 @@ def table(head, rows, texts=()):
     return lines + ["| " + " | ".join(row) + " |" for row in rows]
 
 
+def groups(rows, *keys):
+    """The rows by the values of some of their keys, in order of appearance."""
+    found = {}
+    for row in rows:
+        found.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return found
+
+
 def write_page(path, lines):
     with open(path, "w", encoding="utf-8") as out:
         out.write("\n".join(lines) + "\n")
@@ -40,11 +48,7 @@ def write_page(path, lines):
 
 def write_section(name, lines):
     """Puts the lines between the marks of that name in README.md."""
-    begin, end = f"<!-- {name}: written by its script -->", f"<!-- {name}: end -->"
-    with open(README, encoding="utf-8") as text:
-        before, rest = text.read().split(begin)
-    with open(README, "w", encoding="utf-8") as out:
-        out.write(before + "\n".join([begin, "", *lines, "", end]) + rest.split(end)[1])
+    put_between(README, f"<!-- {name}: written by its script -->", f"<!-- {name}: end -->", lines)
 
 
 def plain_ticks(axis):

@@ -134,6 +134,7 @@ class Cgal(Peer):
         self.version = "CGAL " + re.search(r"define CGAL_VERSION (\S+)", open(header, encoding="utf-8").read())[1]
         source = os.path.join(HERE, "cgal_remesh.cpp")
         if not os.path.exists(self.program) or os.path.getmtime(self.program) < os.path.getmtime(source):
+            os.makedirs(OUT, exist_ok=True)
             usage_of(["g++", "-std=c++17", "-O3", "-DNDEBUG", source, "-o", self.program, "-lgmp", "-lmpfr"],
                      INSTALL_LIMIT)
 

@@ -7,14 +7,14 @@ import statistics
 import textwrap
 from pathlib import Path
 
+from common import put_between
+
 HERE = Path(__file__).resolve().parent
 PAGE = HERE / "PEERS.md"
 README = HERE.parents[1] / "README.md"
 BEGIN, END = "<!-- peers: written by tests/bench/peers_in_readme.py -->", "<!-- peers: end -->"
 HEAD = ("CCDM", "average smallest angle", "best other's", "fastest other's time / ours",
         "Hausdorff at most the best's", "RMS at most the best's")
-
-
 FIGURES = ("fastest peer's / ours", "least Hausdorff / ours", "least RMS / ours", "our angle", "best peer's")
 
 
@@ -59,9 +59,7 @@ def lines(page):
 
 
 def write():
-    before, rest = README.read_text(encoding="utf-8").split(BEGIN)
-    part = "\n".join([BEGIN, "", *lines(PAGE.read_text(encoding="utf-8")), "", END])
-    README.write_text(before + part + rest.split(END)[1], encoding="utf-8")
+    put_between(README, BEGIN, END, lines(PAGE.read_text(encoding="utf-8")))
 
 
 if __name__ == "__main__":

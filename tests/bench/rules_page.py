@@ -5,7 +5,7 @@ import statistics
 
 import pages
 from common import HERE
-from pages import paragraph, plain_ticks, plt, save
+from pages import groups, paragraph, plain_ticks, plt, save
 
 PAGE = os.path.join(HERE, "RULES.md")
 TEXTS = ("model", "field", "density", "optimiser", "rule")
@@ -51,14 +51,6 @@ def line_of(row):
     if "angle" in row:
         return f"{row['cpu']:.2f}  {row['angle']:.2f}"
     return "slope " + slope_cell(row) if "slope" in row else ""
-
-
-def groups(rows, *keys):
-    """The rows by the values of some of their keys, in order of appearance."""
-    found = {}
-    for row in rows:
-        found.setdefault(tuple(row[key] for key in keys), []).append(row)
-    return found
 
 
 def summary(rows):

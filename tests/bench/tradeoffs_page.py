@@ -4,7 +4,7 @@ import os
 
 import pages
 from common import HERE
-from pages import paragraph, plt, save
+from pages import groups, paragraph, plt, save
 
 HEAD = ["model", "vertices", "{}", "CPU s", "average smallest angle", "smallest angle", "below", "Hausdorff", "RMS"]
 UNITS = """CPU: processor seconds of the whole process on one thread. Angles in degrees, Hausdorff and RMS in 1e-3 of the
@@ -28,10 +28,7 @@ def table(rows, option):
 
 
 def by_model(rows):
-    found = {}
-    for row in rows:
-        found.setdefault(row["model"], []).append(row)
-    return found
+    return {model: part for (model,), part in groups(rows, "model").items()}
 
 
 def at(rows, option, value):
@@ -64,15 +61,11 @@ def answer_on_angles(rows):
 
 
 def answer_on_approximation(rows):
-    models = by_model(rows)
-    def change(r, key, value):
-        return at(r, "approximation", value)[key] / at(r, "approximation", 0)[key] - 1
-    def loss(r, value):
-        return at(r, "approximation", 0)["angle_min_avg"] - at(r, "approximation", value)["angle_min_avg"]
     parts = []
     for value in (0.25, 0.5, 1):
-        gain = [-100 * change(r, "rms", value) for r in models.values()]
-        lost = [loss(r, value) for r in models.values()]
+        pairs = [(at(r, "approximation", 0), at(r, "approximation", value)) for r in by_model(rows).values()]
+        gain = [100 * (1 - some["rms"] / none["rms"]) for none, some in pairs]
+        lost = [none["angle_min_avg"] - some["angle_min_avg"] for none, some in pairs]
         parts.append(f"{value:g}: {min(gain):.0f} to {max(gain):.0f} % less RMS for {min(lost):.2f} to {max(lost):.2f} degrees")
     return "Against no weight, of the average smallest angle: " + "; ".join(parts) + "."
 

@@ -4,12 +4,16 @@ import json
 import os
 import re
 import subprocess
+import sys
 import xml.etree.ElementTree as tree
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import pages  # noqa: E402
+
 SAMPLE = ROOT / "sample_meshes" / "sphere.ply"
 RELOCATIONS = {"CellCentroid": "cvt", "PatchCentroid": "cpt", "Circumcentres": "odt"}
 FIELDS = re.compile(r"(?P<text>.*)Unit: (?P<unit>.+?)\. Range: (?P<range>.+?)\. Default: (?P<default>.+?)\. "
@@ -166,9 +170,7 @@ def test_help_has_the_same_defaults_and_ranges(params, help_texts):
 
 
 def readme_rows():
-    page = (ROOT / "README.md").read_text(encoding="utf-8")
-    table = page[page.index("| command line | script and dialog |"):].split("\n\n")[0]
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]]
+    rows = pages.table(pages.section("Parameters"))[1:]
     return {row[0].strip("`-"): row for row in rows if row[0]}
 
 

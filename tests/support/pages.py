@@ -40,4 +40,4 @@ def section(title, page=README):
 def table(text):
     """The rows of the first table in a text, the head first."""
     lines = [line for line in text[text.index("\n|"):].strip().split("\n\n")[0].splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in lines[:1] + lines[2:]]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[:1] + lines[2:]]
