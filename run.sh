@@ -13,7 +13,8 @@ usage: ./run.sh VERB
   test    the same set-up, then every check and test; with CCDM_ALL_HOSTS=1 in PyMeshLab 2022.2 too
   build   the command line, a plugin for each MeshLab (2020.09, 2022.02, 2025.07) and the tests, in build/
   bench   the benchmarks (tests/bench), or one of them: bench hosts,
-          bench scaling [--sizes N ...] [--repeats N], bench range, bench tradeoffs [--models M ...],
+          bench scaling [--sizes N ...] [--repeats N], bench range [--models M ...],
+          bench tradeoffs [--models M ...],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
           bench peers [--models M ...] [--peers WORD ...] [--repeats N]
   paper   the paper's tables and figures made anew, beside its printed rows: build/paper/index.md;
@@ -135,16 +136,20 @@ variants="2020.09:float;2022.02:double;2025.07:double"
 
 # In build/: these targets, or everything.
 compile() {
-    say "building"
+    say "building (some minutes at first; build/build.log tells how far it is)"
     cmake --preset default "-DCCDM_PLUGIN_VARIANTS=$variants" >build-configure.log 2>&1 || { cat build-configure.log; fail "cmake failed"; }
     mkdir -p build && mv build-configure.log build/configure.log
     cmake --build --preset default -- -v "$@" >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
 }
 
+# What users run, without the tests.
+programs=(vcg_ext/apps/ccdm_remesh/all filter_ccdm/all)
+
+# These targets, or everything.
 build() {
     install_packages "${build_packages[@]}"
     fetch_sdks
-    compile
+    compile "$@"
     grep '^-- Plugin for MeshLab' build/configure.log || true
     filter_ccdm/make_host_tree.sh build/host build/plugins/2020.09/libfilter_ccdm.so
 }
@@ -154,7 +159,7 @@ server() { xvfb-run -a build/host/bin/meshlabserver "$@"; }
 
 demo() {
     install_packages "${build_packages[@]}" "${demo_packages[@]}"
-    build
+    build "${programs[@]}"
     local out=build/demo input=sample_meshes/cad_part.ply
     mkdir -p "$out"
     rm -f "$out"/*
@@ -194,13 +199,13 @@ run_tests() {
     build
     check_style
     say "tests"
-    [ -d ../shared/meshes ] || say "../shared/meshes is not there: the tests on real models are skipped"
+    [ -d "${CCDM_SHARED:-../shared}/meshes" ] || say "${CCDM_SHARED:-../shared}/meshes is not there: the tests on real models are skipped"
     ctest --preset default --output-on-failure
 }
 
 package() {
     install_packages "${build_packages[@]}" "${package_packages[@]}"
-    build
+    build "${programs[@]}"
     rm -rf build/packages
     (cd build && cpack -G DEB >cpack.log) || { cat build/cpack.log; fail "cpack failed"; }
     /usr/bin/python3 python/build_wheels.py build/plugins build/packages
@@ -303,7 +308,7 @@ paper() {
     *" --quick "*) ;;
     *) (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed" ;;
     esac
-    [ -d ../shared/meshes ] || say "../shared/meshes is not there: the sample meshes stand for the paper's models"
+    [ -d "${CCDM_SHARED:-../shared}/meshes" ] || say "${CCDM_SHARED:-../shared}/meshes is not there: the sample meshes stand for the paper's models"
     /usr/bin/python3 tests/paper/reproduce.py "$@"
 }
 

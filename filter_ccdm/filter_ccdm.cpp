@@ -78,7 +78,7 @@ QString FilterCcdmPlugin::filterInfo(int id) const
         return "";
     // Kept short: in MeshLab 2020.09 the parameters have only the room that this text leaves them.
     return "Replaces the triangles of a surface by well-shaped ones: as <b>many vertices</b> as asked for, the same "
-           "topology, sharp features and boundaries; the vertices lie on the original. Takes any 2-manifold triangle "
+           "topology, sharp features and boundaries, close to the original. Takes any 2-manifold triangle "
            "mesh, also with boundaries, noise or self-intersections, and not orientable ones.<br>"
            "See: <i>Zhonggui Chen, Juan Cao, Wenping Wang</i>, <b>\"Isotropic Surface Remeshing Using Constrained "
            "Centroidal Delaunay Mesh\"</b>, Computer Graphics Forum 31(7), 2012.";

@@ -7,6 +7,7 @@ Remeshing" with 20 iterations, its edge length calibrated until the vertex count
 in turn, three times, the median counts. Writes build/bench/hosts.json and the section on hosts of
 tests/bench/README.md.
 """
+import argparse
 import os
 import statistics
 import subprocess
@@ -96,7 +97,7 @@ def bench_case(case, n, angle, folder, display):
     for _ in range(RUNS):
         ours.append(ccdm(source, n, angle, folder))
         theirs.append(explicit(source, length, diagonal, angle, folder, display)[0])
-    row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "explicit_n": got,
+    row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "angle": angle, "explicit_n": got,
            "ccdm": statistics.median(cpu for cpu, _ in ours), "megabytes": max(megabytes for _, megabytes in ours),
            "explicit": statistics.median(theirs)}
     row["ratio"] = row["ccdm"] / row["explicit"]
@@ -109,14 +110,15 @@ same count, median of {runs} runs in turn."""
 
 
 def write_section(rows):
-    cells = [[r["model"], f"{r['n']:,}", f"{r['ccdm']:.2f}", f"{r['megabytes']:.0f}", f"{r['explicit']:.2f}",
+    cells = [[r["model"], f"{r['n']:,}", str(r["angle"]), f"{r['ccdm']:.2f}", f"{r['megabytes']:.0f}", f"{r['explicit']:.2f}",
               f"{r['explicit_n']:,}", f"{r['ratio']:.2f}"] for r in rows]
-    head = ("model", "vertices", "CCDM s", "CCDM MB", "explicit s", "its vertices", "ratio")
+    head = ("model", "vertices", "feature angle", "CCDM s", "CCDM MB", "explicit s", "its vertices", "ratio")
     pages.write_section("hosts", [*pages.stamp(provenance("./run.sh bench hosts"), "this section"), "",
                                   *pages.paragraph(TEXT.format(runs=RUNS)), "", *pages.table(head, cells, ("model",))])
 
 
 def main():
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     display, name = start_display()
     rows = []
     try:

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 import scaling_page
-from common import PROGRAM, ROOT, model, provenance, usage_of, write_figures
+from common import PROGRAM, ROOT, model, provenance, undisturbed, usage_of, write_figures
 
 sys.path.insert(0, os.path.join(ROOT, "sample_meshes"))
 import numpy as np
@@ -47,23 +47,6 @@ def thread_counts():
 def remesh(source, target, n, threads, *options):
     return usage_of([PROGRAM, source, target, "--vertices", str(n), "--feature-angle", str(FEATURE_ANGLE), "--threads",
                      str(threads), "--quiet", *options])
-
-
-def busy_seconds():
-    """What all processes of the machine have used since it started."""
-    with open("/proc/stat", encoding="ascii") as text:
-        user, nice, system, _, _, *interrupts = (int(x) for x in text.readline().split()[1:9])
-    return (user + nice + system + sum(interrupts)) / os.sysconf("SC_CLK_TCK")
-
-
-def undisturbed(run, repeats):
-    """The run with the least wall time, and how many cores others kept busy meanwhile."""
-    rows = []
-    for _ in range(repeats):
-        before = busy_seconds()
-        usage = run()
-        rows.append({**usage._asdict(), "others": max(0, busy_seconds() - before - usage.cpu) / usage.wall})
-    return min(rows, key=lambda row: row["wall"])
 
 
 def bench_growth(source, sizes, repeats, folder):

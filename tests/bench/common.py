@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmarks share: paths, models, the machine, what one process costs and what its result is worth."""
 import datetime
+import hashlib
 import json
 import os
 import platform
@@ -89,9 +90,38 @@ def machine():
             "system": platform.freedesktop_os_release()["PRETTY_NAME"]}
 
 
+def engine():
+    """A name for the engine as it is: pages that name the same one are of the same results."""
+    digest = hashlib.sha256()
+    for top, folders, names in os.walk(os.path.join(ROOT, "vcg_ext", "vcg")):
+        folders.sort()
+        for name in sorted(names):
+            digest.update(name.encode())
+            with open(os.path.join(top, name), "rb") as source:
+                digest.update(source.read())
+    return digest.hexdigest()[:8]
+
+
 def provenance(command):
-    """When, where and how figures were made."""
-    return {"command": command, "date": datetime.date.today().isoformat(), "machine": machine()}
+    """When, where, with what and how figures were made."""
+    return {"command": command, "date": datetime.date.today().isoformat(), "machine": machine(), "engine": engine()}
+
+
+def busy_seconds():
+    """What all processes of the machine have used since it started."""
+    with open("/proc/stat", encoding="ascii") as text:
+        user, nice, system, _, _, *interrupts = (int(x) for x in text.readline().split()[1:9])
+    return (user + nice + system + sum(interrupts)) / os.sysconf("SC_CLK_TCK")
+
+
+def undisturbed(run, repeats):
+    """The run with the least wall time, and how many cores others kept busy meanwhile."""
+    rows = []
+    for _ in range(repeats):
+        before = busy_seconds()
+        usage = run()
+        rows.append({**usage._asdict(), "others": max(0, busy_seconds() - before - usage.cpu) / usage.wall})
+    return min(rows, key=lambda row: row["wall"])
 
 
 def write_figures(name, data):

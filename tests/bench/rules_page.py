@@ -148,8 +148,34 @@ def draw_slope(rows):
     save(figure, "rules_slope.png")
 
 
+def rules_answer(rows):
+    """For each optimiser the rules by the median of the average smallest angle, the best first; uniform density."""
+    sentences = []
+    uniform = [r for r in rows if r["density"] == "uniform"]
+    for (optimiser,), part in groups(uniform, "optimiser").items():
+        found = sorted(((statistics.median(r["angle_min_avg"] for r in some), sum(r["cpu"] for r in some), rule)
+                        for (rule,), some in groups(part, "rule").items()), reverse=True)
+        sentences.append(f"{optimiser}: " + ", ".join(f"{rule} {angle:.2f} degrees in {cpu:.1f} s"
+                                                      for angle, cpu, rule in found))
+    return ["Median of the average smallest angle and processor seconds of all models, uniform density, the best rule "
+            "first: " + "; ".join(sentences) + "."] if sentences else []
+
+
+def slope_answer(rows):
+    """The slopes with the default of the accelerated optimiser: gamma 2, cvt."""
+    found = [r for r in rows if (r["optimiser"], r["rule"], r["gamma"]) == ("accelerated", "cvt", 2) and "slope" in r]
+    return ["With the default (accelerated, cvt, gamma 2) the vertex density follows phi with the slopes " +
+            ", ".join(f"{value(r['slope'], 2)} ({r['model']})" for r in found) + "; 1 is wanted."] if found else []
+
+
+def answer(data):
+    sentences = rules_answer(data["rules"]) + slope_answer(data["slope"])
+    return ["", "## In short", "", *paragraph(" ".join(sentences))] if sentences else []
+
+
 def write(data):
     lines = ["# Relocation rules", ""] + pages.stamp(data, "this page")
     lines += ["", *paragraph(INTRODUCTION.format(**data) + ("" if data["real"] else " " + SAMPLES))]
+    lines += answer(data)
     lines += rules_section(data) + time_section(data) + slope_section(data) + models_section(data)
     pages.write_page(PAGE, lines)

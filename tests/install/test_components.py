@@ -5,6 +5,7 @@ import re
 
 import pytest
 from conftest import ROOT, VERSION, call, files_in
+from plyfile import count_ply
 
 EXAMPLE = ROOT / "tests" / "install" / "example"
 
@@ -55,6 +56,8 @@ def test_example_is_built_and_runs(development, tmp_path):
     log = call("cmake", "--build", tmp_path, "-v")
     assert "-ffp-contract=off" in log, "as where the project itself uses the library: equal bits"
     assert call(tmp_path / "remesh_a_box") == "2000 vertices, 3996 triangles\n"
+    call(tmp_path / "remesh_a_box", ROOT / "sample_meshes" / "sphere.ply", tmp_path / "sphere.ply")
+    assert count_ply(tmp_path / "sphere.ply")[0] == 2000
 
 
 def test_missing_vcglib_is_said(development, tmp_path):

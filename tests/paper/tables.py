@@ -30,8 +30,12 @@ def remeshers(quick, words):
 
 def result_file(folder, case, method):
     """Where a result is kept."""
-    name = "".join(c if c.isalnum() else "_" for c in f"{case.name} {method}".lower())
-    return os.path.join(folder, "meshes", name + ".ply")
+    return os.path.join(folder, "meshes", file_name(case.paper, method))
+
+
+def file_name(paper, method):
+    """Of a result, by the paper's name of the model: one stand-in may stand for two."""
+    return "".join(c if c.isalnum() else "_" for c in f"{paper} {method}".lower()) + ".ply"
 
 
 def measure_tables(cases, folder, options):

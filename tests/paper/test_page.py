@@ -10,10 +10,11 @@ import sys
 import pytest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(os.path.dirname(HERE), "support"))
+sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "bench"), os.path.join(os.path.dirname(HERE), "support")]
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(HERE)), "sample_meshes"))
 from meshfile import read_ply
 from surface import aspect_ratios, corner_angles
+from tables import file_name
 
 PICTURES = ["figure_3d", "figure_4c", "figure_4d", "figures_3_4", *(f"figure_{k}" for k in range(5, 11))]
 # Column of the page: the name in printed.csv and in the data, and the factor between the data and the page.
@@ -111,10 +112,8 @@ def test_csv_has_the_rows_of_the_page(folder, page, number):
 def test_figures_are_those_of_the_meshes(folder, data):
     """Found from the files by the tests' own count."""
     for row in data["tables"]["rows"]:
-        name = "".join(c if c.isalnum() else "_" for c in f"{row['model']} {row['peer']}".lower())
-        points, faces = read_ply(folder / "meshes" / f"{name}.ply")
-        if len(points) != row["vertices"]:
-            continue  # the model stands for two, the later one's result is kept
+        points, faces = read_ply(folder / "meshes" / file_name(row["paper"], row["peer"]))
+        assert len(points) == row["vertices"]
         least, aspect = corner_angles(points, faces).min(axis=1), aspect_ratios(points, faces)
         assert least.mean() == pytest.approx(row["angle_min_avg"], abs=1e-6)
         assert least.min() == pytest.approx(row["angle_min"], abs=1e-6)

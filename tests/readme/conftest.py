@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / "support"), str(ROOT / "tests" / "bench")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("tests/support", "tests/bench", "sample_meshes")]
 BUILD = Path(os.environ.get("CCDM_BUILD", ROOT / "build")).resolve()
 VENV = BUILD / "venv-2025.07"
 

@@ -12,6 +12,8 @@ import pages
 import plyfile
 import pytest
 from conftest import BUILD, ROOT, STAND_INS, VENV
+from meshfile import read_ply
+from surface import corner_angles
 
 
 def vertices(path):
@@ -19,7 +21,12 @@ def vertices(path):
 
 
 def demo(place, _):
-    assert vertices(place.folder / "build/demo/cad_part_ccdm.ply") == 5000
+    """The figures are those of the caption of the README's picture."""
+    points, faces = read_ply(place.folder / "build/demo/cad_part_ccdm.ply")
+    least = corner_angles(points, faces).min(axis=1)
+    caption = re.sub(r"\s+", " ", pages.README.read_text(encoding="utf-8")).split("*Left: ")[1].split("*")[0]
+    assert f"Right: {len(points)} vertices, average smallest angle {least.mean():.1f} degrees" in caption
+    assert len(points) == 5000 and least.min() > 40 and "none under 40" in caption
     assert (place.folder / "build/demo/before_after.png").stat().st_size > 10000
 
 
@@ -29,7 +36,7 @@ def plugin_package(place, _):
 
 def plugin_without_package(place, _):
     plugin_package(place, _)
-    assert vertices(place.folder / "bust.ply") == 5000
+    assert vertices(place.folder / "build" / "bust.ply") == 5000
 
 
 def wheel(place, _):
@@ -43,16 +50,17 @@ def command_line_package(place, printed):
 
 def headers(place, printed):
     assert (place.folder.parent / "home/ccdm/share/ccdm/cmake/ccdm-config.cmake").exists()
-    assert "Build files have been written to" in printed
+    assert "Build files have been written to" in printed and "2000 vertices" in printed
+    assert vertices(place.folder / "build/bust_2000.ply") == 2000
 
 
 def command_line(place, printed):
-    assert vertices(place.folder / "bust_4000.ply") == 4000 and "topology preserved" in printed
-    assert (place.folder / "bust.json").exists()
+    assert vertices(place.folder / "build" / "bust_4000.ply") == 4000 and "topology preserved" in printed
+    assert (place.folder / "build" / "bust.json").exists()
 
 
 def own_script(place, printed):
-    assert vertices(place.folder / "part.ply") == 2000 and "topology preserved" in printed
+    assert vertices(place.folder / "build" / "part.ply") == 2000 and "topology preserved" in printed
 
 
 def batch(place, _):

@@ -9,7 +9,10 @@ import peers_in_readme
 import pytest
 from conftest import ROOT
 
-PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "filter_ccdm/PARAMETERS.md")]
+FOLDERS = ("filter_ccdm", "python", "sample_meshes", "tests", "vcg_ext")
+PAGES = sorted([*ROOT.glob("*.md"), *(page for folder in FOLDERS for page in (ROOT / folder).rglob("*.md"))])
+MEASURED = [ROOT / "tests" / "bench" / name
+            for name in ("README.md", "ANGLES.md", "APPROXIMATION.md", "PEERS.md", "RULES.md")]
 
 
 def verbs():
@@ -23,7 +26,11 @@ def anchors(page):
     return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def title(page):
+    return str(page.relative_to(ROOT))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=title)
 def test_links(page):
     for target in re.findall(r"\]\(([^)]+)\)", page.read_text(encoding="utf-8")):
         if "://" in target:
@@ -34,7 +41,7 @@ def test_links(page):
         assert not anchor or anchor in anchors(there), target
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+@pytest.mark.parametrize("page", PAGES, ids=title)
 def test_named_files_and_verbs_exist(page):
     text = page.read_text(encoding="utf-8")
     for verb in re.findall(r"\./run\.sh ([a-z]\w*)", text):
@@ -75,6 +82,15 @@ def test_other_remeshers_are_as_on_their_page():
     part = text.split(peers_in_readme.BEGIN)[1].split(peers_in_readme.END)[0]
     assert part.strip().splitlines() == peers_in_readme.lines(peers_in_readme.PAGE.read_text(encoding="utf-8")), \
         "tests/bench/peers_in_readme.py writes it anew"
+
+
+def test_measured_pages_are_of_one_engine():
+    """Else the same run would have other figures on another page."""
+    stamps = [(title(page), stamp) for page in MEASURED
+              for stamp in re.findall(r"That command writes this (?:page|section)", page.read_text(encoding="utf-8"))]
+    named = [(title(page), name) for page in MEASURED
+             for name in re.findall(r",\sengine\s(\w{8})\.\sThat\scommand", page.read_text(encoding="utf-8"))]
+    assert len(named) == len(stamps) == 7 and len({name for _, name in named}) == 1, named
 
 
 def test_every_script_is_listed():

@@ -65,13 +65,29 @@ TEST(FalseCreases, CreasesOfThinPlatesStay)
         }
 }
 
+TEST(FalseCreases, RimsOfSmallHolesStay)
+{
+    // A square hole through a plate, narrower than the spacing.
+    const shapes::Shape frame = shapes::Extrude(shapes::Grid(
+                                                    3, 3, [](int i, int j) { return i != 1 || j != 1; },
+                                                    [](double u, double v) {
+                                                        return shapes::P{u, v, 0};
+                                                    }),
+                                                0.4);
+    for (const double spacing : {0.4, 0.5, 0.8}) {
+        const Kept k = Creases(frame, 40, spacing);
+        EXPECT_EQ(k.before, 40);
+        EXPECT_EQ(k.after, k.before) << spacing;
+    }
+}
+
 TEST(FalseCreases, SaysHowManyEdgesWereDropped)
 {
     EXPECT_EQ(DroppedCreasesWarning(0, 40), "");
-    EXPECT_EQ(DroppedCreasesWarning(1, 40), "1 edge that turns by more than 40 degrees was taken for roughness or a "
-                                            "stray fragment and not for a crease");
-    EXPECT_EQ(DroppedCreasesWarning(3, 32.5), "3 edges that turn by more than 32.5 degrees were taken for roughness "
-                                              "or a stray fragment and not for a crease");
+    EXPECT_EQ(DroppedCreasesWarning(1, 40), "1 edge that turns by more than 40 degrees was taken for roughness, a "
+                                            "stray fragment or too small a detail and not for a crease");
+    EXPECT_EQ(DroppedCreasesWarning(3, 32.5), "3 edges that turn by more than 32.5 degrees were taken for roughness, "
+                                              "a stray fragment or too small a detail and not for a crease");
 }
 
 TEST(FalseCreases, NoiseOnASphereHasNone)

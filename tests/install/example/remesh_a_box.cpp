@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A box of twelve triangles becomes one of 2000 vertices, with its twelve creases. The README shows a part of this.
+// remesh_a_box [INPUT.ply OUTPUT.ply]: a mesh, or else a box of twelve triangles, becomes one of 2000 vertices, with
+// its creases. The README shows a part of this.
 #include <iostream>
 
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 #include <vcg/complex/algorithms/create/platonic.h>
+#include <wrap/io_trimesh/export_ply.h>
+#include <wrap/io_trimesh/import_ply.h>
 
 class Vertex;
 class Face;
@@ -19,15 +22,20 @@ class MyMesh : public vcg::tri::TriMesh<std::vector<Vertex>, std::vector<Face>>
 {
 };
 
-int main()
+int main(int argc, char **argv)
 {
     MyMesh mesh;
-    vcg::tri::Hexahedron(mesh);
+    if (argc != 3)
+        vcg::tri::Hexahedron(mesh);
+    else if (vcg::tri::io::ImporterPLY<MyMesh>::Open(mesh, argv[1]) != 0)
+        return 1;
     vcg::tri::CCDMRemeshing<MyMesh>::Params params;
     params.vertexCount = 2000;
     const auto report = vcg::tri::CCDMRemeshing<MyMesh>::Do(mesh, params);
     if (report.status != vcg::ccdm::Status::Done)
         std::cerr << report.message << '\n'; // the mesh is as it was
     std::cout << mesh.VN() << " vertices, " << mesh.FN() << " triangles\n";
+    if (argc == 3 && vcg::tri::io::ExporterPLY<MyMesh>::Save(mesh, argv[2]) != 0)
+        return 1;
     return report.status == vcg::ccdm::Status::Done ? 0 : 1;
 }

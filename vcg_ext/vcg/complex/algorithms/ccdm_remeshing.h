@@ -19,8 +19,10 @@ namespace tri {
 ///
 /// Takes any 2-manifold triangle mesh (any genus, with or without boundary, orientable or not,
 /// self-intersecting or not) and gives a mesh of well-shaped triangles with the wanted number of
-/// vertices, the same topology and the same sharp features, all of whose vertices lie on the input.
-/// Works on any vcg TriMesh type; no adjacency, flag or optional component of it is used.
+/// vertices, the same topology and the same sharp features. Its vertices lie on the input, unless
+/// Params::approximation above 0.5 takes them off it.
+/// Works on any vcg TriMesh type; no adjacency of it is used, and flags and quality only where the parameters ask for
+/// them.
 template <class MeshType>
 class CCDMRemeshing
 {

@@ -54,7 +54,7 @@ public:
         Polish polish(_model, _remesh);
         const double target = MinAngle(_params);
         const std::function<void()> step[] = {
-            [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, 25); },
+            [&] { ExtremeCapture(_model, _remesh, _probes).Run(FarTip, 25); },
             [&] { polish.Unfold(10); },
             [&] {
                 // Measured: the default costs hardly any angle; 1 takes up to a degree.
@@ -78,7 +78,7 @@ public:
                     _schedule.Changed();
             },
             // What else can be captured without an angle below the target.
-            [&] { ExtremeCapture(_model, _remesh, _probes).Run(5, target); },
+            [&] { ExtremeCapture(_model, _remesh, _probes).Run(FurtherTip, target); },
             [&] { LevelChords(target); },
         };
         double done = 0;
@@ -202,6 +202,9 @@ private:
             refinement.Sort();
             _remesh.mesh.KeepRings();
             _schedule.Changed();
+            // The energy of four times the triangles: what the coarse level has reached says nothing about it.
+            _report.energy.assign(1, Energy(_remesh, _workers));
+            _report.accepted = 0;
             done = share;
             share += static_cast<double>(fine) * finer[k] / work;
             if (!Accelerate(fine, FineNoise * _params.lambda, 0.9 * done, 0.9 * share, progress))
@@ -259,6 +262,9 @@ private:
     // coarse level raise them where the surface has no features, by 0.1 degrees.
     static constexpr double CoarseShare = 2, FineShare = 0.3, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
+    /// Tips further off than so many root mean square distances are captured, first and at last. Measured: with 5 at
+    /// first the largest distances are 8 % larger; with 4 at last noisy surfaces lose 0.1 degrees for 2 %.
+    static constexpr double FarTip = 4, FurtherTip = 5;
     static constexpr int PolishRounds = 14;
     static constexpr int ApproximationRounds = 4;
     static constexpr int ChordRounds = 10;

@@ -305,10 +305,11 @@ struct Report {
     int prunedFragments = 0;         ///< feature fragments shorter than the local spacing, ignored
     std::vector<NarrowPlace> narrow; ///< one for each narrow part, the narrowest in spacings first
 
-    /// F of equation (1) in the kept state, first the start, then after each global iteration. In the fourth power of
-    /// a unit in which the input is about 1 long, so that only ratios within one run mean something.
+    /// F of equation (1) in the kept state, first the start, then after each global iteration; of a mesh that was
+    /// refined from a coarse level, since then. In the fourth power of a unit in which the input is about 1 long, so
+    /// that only ratios within one run mean something.
     std::vector<double> energy;
-    int accepted = 0;          ///< global iterations whose result was kept; with the accelerated optimiser all
+    int accepted = 0; ///< global iterations of `energy` whose result was kept; with the accelerated optimiser all
     long long relocations = 0; ///< vertex relocations tried, all sweeps together
     long long flips = 0;       ///< edge flips done by the optimiser
     bool flipsBounded = false; ///< flips were ended at their bound: the mesh may not be Delaunay everywhere

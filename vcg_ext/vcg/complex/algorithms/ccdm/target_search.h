@@ -293,6 +293,10 @@ private:
         }
         if (!best)
             return NotReached(std::move(last), trials, bound);
+        if (bound > Suspicious)
+            best->warnings.push_back(
+                "the largest error is a share of the bounding box's diagonal: what was asked for is "
+                "more than a tenth of it");
         output = std::move(bestResult);
         return std::move(*best);
     }
@@ -389,6 +393,7 @@ private:
     static constexpr int TrialIterations = 4;
     static constexpr double LeastCap = 100000, MostCap = 4000000, MostFirst = 20000;
     static constexpr double MostStep = 8, FullStep = 1.7;
+    static constexpr double Suspicious = 0.1; // largest error, in diagonals: percents may have been meant
     static constexpr double CloseEnough = 1.1;
     // The error of a trial, in units of the bound, from which full runs set out.
     static constexpr double NearAbove = 1.6, NearBelow = 0.6;
