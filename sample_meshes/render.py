@@ -118,7 +118,7 @@ def picture(out, panels, columns, size=4.5, histogram=False):
             if not panel.close:
                 show_angles(axes, panel)
     figure.tight_layout()
-    figure.savefig(out, dpi=110)
+    figure.savefig(out, dpi=110, bbox_inches="tight")
     plt.close(figure)
 
 
