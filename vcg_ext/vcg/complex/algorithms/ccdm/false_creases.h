@@ -18,8 +18,8 @@ namespace ccdm {
 /// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if it
 /// stands out from the turns of the other edges around it, if the surface turns there at the scale of the
 /// wanted mesh too, and only in company: as part of a connected set of such edges that is several spacings
-/// long. Where there is no roughness that it could be part of, the scale does not count: a small hole of a clean part
-/// keeps its rim. Boundaries and marked edges always stay.
+/// long. Where there is no roughness that it could be part of, a smaller scale will do: a hole of a clean part that is
+/// narrower than the spacing keeps its rim. Boundaries and marked edges always stay.
 class FalseCreases
 {
 public:
@@ -43,9 +43,8 @@ public:
             const double around = (rough[_mesh.Tail(s)] + rough[_mesh.Head(s)]) / 2;
             // An edge between two vertices at one place has no direction; it goes on with a crease or hangs loose.
             const bool point = _surface.position[_mesh.Tail(s)] == _surface.position[_mesh.Head(s)];
-            const double turn = Turn(s);
-            const bool clear = around < Smooth && turn < Folded;
-            if (point || clear || (turn > Prominence * around && TurnsAtLargeScale(s, static_cast<int>(k))))
+            const double reach = (around < Smooth ? SmoothRadius : Radius) * _spacing[_mesh.Tail(s)];
+            if (point || (Turn(s) > Prominence * around && TurnsWithin(reach, s, static_cast<int>(k))))
                 kept.push_back(s);
             else
                 _mesh.SetConstrained(s, false);
@@ -61,13 +60,13 @@ public:
 
 private:
     static constexpr double Prominence = 4.5; // of a crease's turn over the mean turn of the other edges around it
-    // Where the other edges turn by less, in radians, there is no roughness. Measured: 15 times less than the crease is
-    // too much, slivers of a decimated scan then count. What turns by more than the other is a sliver, folded back.
-    static constexpr double Smooth = 0.02, Folded = 2.6;
     static constexpr int RoughnessRounds = 3; // of averaging over the neighbours
     static constexpr double Share = 0.7;      // of the feature angle, that the mean normals have to differ by
     static constexpr double Radius = 1.0;     // of the neighbourhood, in spacings
-    static constexpr double LeastLength = 4;  // of a connected set, in spacings
+    // The same where the other edges turn by less than so many radians. Details that are much finer make triangles
+    // that are no use.
+    static constexpr double SmoothRadius = 0.25, Smooth = 0.02;
+    static constexpr double LeastLength = 4; // of a connected set, in spacings
     // Least norm of the mean of unit normals that tells a direction. Measured: up to 0.15 no crease of a scan more is
     // kept, and down to 0.05 every crease of thin plates is.
     static constexpr double LeastMean = 0.15;
@@ -145,10 +144,10 @@ private:
     // The mean normals of the surface around the middle of the edge, on either side of it. On a plate thinner than
     // the spacing its other face is within reach and its normals cancel those of the first: what is left says
     // nothing against the crease.
-    bool TurnsAtLargeScale(Side s, int tick)
+    bool TurnsWithin(double reach, Side s, int tick)
     {
         const Point middle = Middle(s);
-        const double reach = Radius * _spacing[_mesh.Tail(s)], reach2 = reach * reach;
+        const double reach2 = reach * reach;
         const int first = SideTriangle(s);
         const Point edge = _surface.position[_mesh.Head(s)] - _surface.position[_mesh.Tail(s)];
         // Across the edge, in the plane between the two faces.
