@@ -30,12 +30,12 @@ def remeshers(quick, words):
 
 def result_file(folder, case, method):
     """Where a result is kept."""
-    return os.path.join(folder, "meshes", file_name(case.paper, method))
+    return os.path.join(folder, "meshes", file_name(case.paper, case.name, method))
 
 
-def file_name(paper, method):
-    """Of a result, by the paper's name of the model: one stand-in may stand for two."""
-    return "".join(c if c.isalnum() else "_" for c in f"{paper} {method}".lower()) + ".ply"
+def file_name(paper, name, method):
+    """Of a result: one model may stand for two of the paper's, and two for one."""
+    return "".join(c if c.isalnum() else "_" for c in f"{paper} {name} {method}".lower()) + ".ply"
 
 
 def measure_tables(cases, folder, options):

@@ -111,8 +111,10 @@ def test_csv_has_the_rows_of_the_page(folder, page, number):
 
 def test_figures_are_those_of_the_meshes(folder, data):
     """Found from the files by the tests' own count."""
-    for row in data["tables"]["rows"]:
-        points, faces = read_ply(folder / "meshes" / file_name(row["paper"], row["peer"]))
+    rows = data["tables"]["rows"]
+    assert len({file_name(row["paper"], row["model"], row["peer"]) for row in rows}) == len(rows)
+    for row in rows:
+        points, faces = read_ply(folder / "meshes" / file_name(row["paper"], row["model"], row["peer"]))
         assert len(points) == row["vertices"]
         least, aspect = corner_angles(points, faces).min(axis=1), aspect_ratios(points, faces)
         assert least.mean() == pytest.approx(row["angle_min_avg"], abs=1e-6)
