@@ -38,13 +38,16 @@ public:
             return 0;
         const std::vector<double> rough = Roughness();
         std::vector<Side> kept;
-        for (std::size_t k = 0; k < crease.size(); ++k) {
-            const Side s = crease[k];
+        int tick = 0;
+        for (const Side s : crease) {
             const double around = (rough[_mesh.Tail(s)] + rough[_mesh.Head(s)]) / 2;
             // An edge between two vertices at one place has no direction; it goes on with a crease or hangs loose.
             const bool point = _surface.position[_mesh.Tail(s)] == _surface.position[_mesh.Head(s)];
-            const double reach = (around < Smooth ? SmoothRadius : Radius) * _spacing[_mesh.Tail(s)];
-            if (point || (Turn(s) > Prominence * around && TurnsWithin(reach, s, static_cast<int>(k))))
+            const double h = _spacing[_mesh.Tail(s)];
+            const double turn = Turn(s);
+            const auto turns = [&](double radius) { return TurnsWithin(radius * h, s, ++tick); };
+            const bool clean = around < Smooth && turn < Folded;
+            if (point || (turn > Prominence * around && (turns(Radius) || (clean && turns(SmoothRadius)))))
                 kept.push_back(s);
             else
                 _mesh.SetConstrained(s, false);
@@ -63,9 +66,9 @@ private:
     static constexpr int RoughnessRounds = 3; // of averaging over the neighbours
     static constexpr double Share = 0.7;      // of the feature angle, that the mean normals have to differ by
     static constexpr double Radius = 1.0;     // of the neighbourhood, in spacings
-    // The same where the other edges turn by less than so many radians. Details that are much finer make triangles
-    // that are no use.
-    static constexpr double SmoothRadius = 0.25, Smooth = 0.02;
+    // The same where the other edges turn by less than so many radians, and the crease by less than the last: what is
+    // folded back is none. Details that are much finer make triangles that are no use.
+    static constexpr double SmoothRadius = 0.25, Smooth = 0.02, Folded = 2.6;
     static constexpr double LeastLength = 4; // of a connected set, in spacings
     // Least norm of the mean of unit normals that tells a direction. Measured: up to 0.15 no crease of a scan more is
     // kept, and down to 0.05 every crease of thin plates is.
