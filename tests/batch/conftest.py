@@ -22,7 +22,7 @@ PROGRAM = os.environ.get("CCDM_REMESH", str(ROOT / "build" / "bin" / "ccdm_remes
 PLUGIN = os.environ.get("CCDM_PYMESHLAB_PLUGIN", "")
 
 # Runs the real program; what it does before that is in PRELUDE.
-STUB = """#!/bin/sh
+STAND_IN = """#!/bin/sh
 case "$1" in --*) exec "{program}" "$@";; esac
 {prelude}
 exec "{program}" "$@"
@@ -109,12 +109,12 @@ def batch(tmp_path, cluster):
 
 
 @pytest.fixture
-def stub(tmp_path):
+def stand_in(tmp_path):
     """A program that does something before it becomes ccdm_remesh ($1 is the input, $2 the output)."""
 
     def make(prelude):
-        path = tmp_path / "stub"
-        path.write_text(STUB.format(program=PROGRAM, prelude=prelude))
+        path = tmp_path / "stand_in"
+        path.write_text(STAND_IN.format(program=PROGRAM, prelude=prelude))
         path.chmod(0o755)
         return path
 

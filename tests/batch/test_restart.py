@@ -84,13 +84,13 @@ def test_killed_between_output_and_record(batch):
     assert (batch.output / "a.ply").stat().st_size == record["output"]["size"]
 
 
-def test_killed_run_is_taken_up(batch, stub):
+def test_killed_run_is_taken_up(batch, stand_in):
     """The whole command is killed while the second mesh is in work; its processes end with it."""
     for name in "ab":
         plyfile.write_ply(batch.inputs / f"{name}.ply", *BUMPY)
     # The second one writes half of its output and hangs.
     once = batch.folder / "once"
-    program = stub(f'if [ -e "{once}" ]; then echo half > "$2"; exec sleep 1000; fi; touch "{once}"')
+    program = stand_in(f'if [ -e "{once}" ]; then echo half > "$2"; exec sleep 1000; fi; touch "{once}"')
     run = batch.start(program=program, workers=1)
     try:
         wait_for(lambda: (batch.output / "a.ply.json").exists())
@@ -134,9 +134,9 @@ def below(pid, wanted):
     return found
 
 
-def test_interrupted(batch, stub):
+def test_interrupted(batch, stand_in):
     plyfile.write_ply(batch.inputs / "a.ply", *BUMPY)
-    run = batch.start(program=stub("exec sleep 1000"), workers=1)
+    run = batch.start(program=stand_in("exec sleep 1000"), workers=1)
     wait_for(lambda: sleepers(run.pid))
     engines = sleepers(run.pid)
     run.send_signal(signal.SIGINT)

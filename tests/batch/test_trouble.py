@@ -28,7 +28,7 @@ def test_hanging_input_is_ended(batch):
     assert (batch.rows()["pipe.ply"]["kind"], batch.rows()["pipe.ply"]["attempts"]) == ("timeout", "2")
 
 
-def test_hanging_engine_is_ended(batch, stub):
+def test_hanging_engine_is_ended(batch, stand_in):
     """An engine that hangs for one mesh and has written half of its output; nothing of it is seen."""
     for name in ("hangs", "sheet"):
         plyfile.write_ply(batch.inputs / f"{name}.ply", *BUMPY)
@@ -40,7 +40,7 @@ def test_hanging_engine_is_ended(batch, stub):
         "--retries",
         0,
         workers=1,
-        program=stub(f'if {this_one}; then echo half >"$2"; exec sleep 1000; fi'),
+        program=stand_in(f'if {this_one}; then echo half >"$2"; exec sleep 1000; fi'),
     )
     wait_for(lambda: sleepers(run.pid))
     engines = sleepers(run.pid)
@@ -54,13 +54,13 @@ def test_hanging_engine_is_ended(batch, stub):
     assert not seen and all(map(ended, engines))
 
 
-def test_crash_is_tried_again(batch, stub):
+def test_crash_is_tried_again(batch, stand_in):
     for name in "ab":
         plyfile.write_ply(batch.inputs / f"{name}.ply", *BUMPY)
     once = batch.folder / "once"
-    batch(program=stub(f'if [ ! -e "{once}" ]; then touch "{once}"; kill -SEGV $$; fi'))
+    batch(program=stand_in(f'if [ ! -e "{once}" ]; then touch "{once}"; kill -SEGV $$; fi'))
     assert sorted(row["attempts"] for row in batch.rows().values()) == ["1", "2"]
-    batch("--seed", 3, "--retries", 2, program=stub("kill -SEGV $$"), expect=3)
+    batch("--seed", 3, "--retries", 2, program=stand_in("kill -SEGV $$"), expect=3)
     row = batch.rows()["a.ply"]
     assert (row["kind"], row["attempts"]) == ("crash", "3") and "SIGSEGV" in row["reason"]
 
@@ -87,12 +87,12 @@ def workers_of(pid):
     return below(pid, lambda process: "spawn_main" in " ".join(process.cmdline()))
 
 
-def test_killed_worker(batch, stub):
+def test_killed_worker(batch, stand_in):
     """kill -9 of the worker that has a mesh in work: the mesh is done again, the result is complete."""
     for k in range(6):
         plyfile.write_ply(batch.inputs / f"{k}.ply", *BUMPY)
     once = batch.folder / "once"
-    program = stub(f'if mkdir "{once}" 2>/dev/null; then exec sleep 1000; fi')
+    program = stand_in(f'if mkdir "{once}" 2>/dev/null; then exec sleep 1000; fi')
     run = batch.start("--time-limit", 120, program=program, workers=2)
     wait_for(lambda: sleepers(run.pid))
     engines = sleepers(run.pid)
@@ -107,14 +107,14 @@ def test_killed_worker(batch, stub):
     assert len(batch.files()) == 12
 
 
-def test_scheduler_by_address(batch, stub):
+def test_scheduler_by_address(batch, stand_in):
     plyfile.write_ply(batch.inputs / "a.ply", *BUMPY)
     address = ["--scheduler", batch.scheduler]
     batch(*address)
     assert statuses(batch) == {"a.ply": "done"}
 
     # The command is killed, the cluster lives on: the engine of the mesh in work is ended all the same.
-    run = batch.start(*address, "--seed", 2, program=stub("exec sleep 1000"))
+    run = batch.start(*address, "--seed", 2, program=stand_in("exec sleep 1000"))
     wait_for(lambda: sleepers(os.getpid()))
     run.send_signal(signal.SIGKILL)
     run.communicate()
@@ -123,12 +123,12 @@ def test_scheduler_by_address(batch, stub):
     assert statuses(batch) == {"a.ply": "done"}
 
 
-def test_lost_workers(batch, stub):
+def test_lost_workers(batch, stand_in):
     """Every worker goes away and none comes back: the run ends and says so."""
     plyfile.write_ply(batch.inputs / "a.ply", *BUMPY)
     with local_cluster() as made:
         address = ["--scheduler", made.scheduler_address]
-        run = batch.start(*address, "--wait", 2, program=stub("exec sleep 1000"))
+        run = batch.start(*address, "--wait", 2, program=stand_in("exec sleep 1000"))
         wait_for(lambda: sleepers(os.getpid()))
         made.scale(0)
         output, _ = run.communicate(timeout=60)

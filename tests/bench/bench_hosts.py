@@ -110,8 +110,8 @@ same count, median of {runs} runs in turn."""
 
 
 def write_section(rows):
-    cells = [[r["model"], f"{r['n']:,}", str(r["angle"]), f"{r['ccdm']:.2f}", f"{r['megabytes']:.0f}", f"{r['explicit']:.2f}",
-              f"{r['explicit_n']:,}", f"{r['ratio']:.2f}"] for r in rows]
+    cells = [[r["model"], f"{r['n']:,}", str(r["angle"]), f"{r['ccdm']:.2f}", f"{r['megabytes']:.0f}",
+              f"{r['explicit']:.2f}", f"{r['explicit_n']:,}", f"{r['ratio']:.2f}"] for r in rows]
     head = ("model", "vertices", "feature angle", "CCDM s", "CCDM MB", "explicit s", "its vertices", "ratio")
     pages.write_section("hosts", [*pages.stamp(provenance("./run.sh bench hosts"), "this section"), "",
                                   *pages.paragraph(TEXT.format(runs=RUNS)), "", *pages.table(head, cells, ("model",))])

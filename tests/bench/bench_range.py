@@ -4,14 +4,13 @@
 
 Writes build/bench/range.json and the section on the range of tests/bench/README.md.
 """
-import argparse
-import json
 import os
 import sys
 import tempfile
 
 import pages
-from common import PROGRAM, cases, count_vertices, model, provenance, undisturbed, usage_of, write_figures
+from common import (PROGRAM, cases, count_vertices, model, models_asked_for, provenance, undisturbed, usage_of,
+                    write_figures)
 
 MODELS = ("joint", "twist", "moai", "bunny_scan", "igea", "cad_part", "twisted_bar", "bumpy", "bust")  # those at hand
 FEW = (4, 40, 400)
@@ -26,12 +25,10 @@ refined from a coarse level, which is the quicker way."""
 
 
 def bench(source, n, folder):
-    report = os.path.join(folder, "report.json")
-    command = [PROGRAM, source, os.path.join(folder, "o.ply"), "--vertices", str(n), "--threads", "1", "--quiet"]
+    result = os.path.join(folder, "o.ply")
+    command = [PROGRAM, source, result, "--vertices", str(n), "--threads", "1", "--quiet"]
     cost = undisturbed(lambda: usage_of(command), RUNS)
-    usage_of([*command, "--report", report])
-    with open(report, encoding="utf-8") as text:
-        return {"n": n, "vertices": json.load(text)["result"]["vertices"], "cpu": cost["cpu"]}
+    return {"n": n, "vertices": count_vertices(result), "cpu": cost["cpu"]}
 
 
 def bench_model(name, folder):
@@ -61,13 +58,10 @@ def section(data):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS, metavar="MODEL",
-                        help="only these, if at hand, of: " + ", ".join(MODELS))
-    options = parser.parse_args()
+    names = models_asked_for(__doc__, MODELS)
     with tempfile.TemporaryDirectory() as folder:
         data = {**provenance(" ".join(["./run.sh bench range", *sys.argv[1:]])),
-                "models": [bench_model(name, folder) for name, _ in cases(options.models)]}
+                "models": [bench_model(name, folder) for name, _ in cases(names)]}
     write_figures("range.json", data)
     pages.write_section("range", section(data))
     return 0

@@ -4,14 +4,14 @@
 
 Writes build/bench/tradeoffs.json, tests/bench/ANGLES.md, tests/bench/APPROXIMATION.md and their pictures.
 """
-import argparse
 import json
 import os
 import sys
 import tempfile
 
 import tradeoffs_page
-from common import PROGRAM, cases, measure, model, provenance, undisturbed, usage_of, write_figures
+from common import (PROGRAM, cases, measure, model, models_asked_for, provenance, undisturbed, usage_of,
+                    write_figures)
 
 MODELS = ("joint", "wingnut", "pig", "moai", "bunny_scan", "koala", "cad_part", "bumpy", "bust")
 SWEEPS = {"min-angle": (0, 20, 30, 35, 40, 42, 44), "approximation": (0, 0.25, 0.5, 0.6, 0.75, 1)}
@@ -35,14 +35,12 @@ def run(name, n, option, value, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS, metavar="MODEL",
-                        help="only these, if at hand, of: " + ", ".join(MODELS))
-    options = parser.parse_args()
+    names = models_asked_for(__doc__, MODELS)
     data = provenance(" ".join(["./run.sh bench tradeoffs", *sys.argv[1:]]))
     with tempfile.TemporaryDirectory() as folder:
         for option, values in SWEEPS.items():
-            data[option] = [run(name, n, option, value, folder) for name, n in cases(options.models) for value in values]
+            data[option] = [run(name, n, option, value, folder) for name, n in cases(names)
+                            for value in values]
     write_figures("tradeoffs.json", data)
     tradeoffs_page.write(data)
     return 0

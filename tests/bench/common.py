@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the benchmarks share: paths, models, the machine, what one process costs and what its result is worth."""
+import argparse
 import datetime
 import hashlib
 import json
@@ -73,6 +74,14 @@ def model(name):
 def cases(names=None):
     """(model, vertices) of the models at hand, or of those of them that are named."""
     return [case for case in (MODELS if os.path.isdir(MESHES) else SAMPLES) if not names or case[0] in names]
+
+
+def models_asked_for(text, names):
+    """Those of the names that the command line asks for, all without; `text`: the script's help."""
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--models", nargs="+", choices=names, default=names, metavar="MODEL",
+                        help="only these, if at hand, of: " + ", ".join(names))
+    return parser.parse_args().models
 
 
 def measure(*files, samples=None):

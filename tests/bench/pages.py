@@ -24,8 +24,8 @@ def stamp(data, effect):
     """Which command made the figures, when and on what; `effect`: what it writes."""
     machine = data["machine"]
     return paragraph(f"`{data['command']}`, {data['date']}, {machine['cpu']}, {machine['cores']} cores, "
-                     f"{machine['system']}, engine {data['engine']}. That command writes {effect}, with figures of that "
-                     "run only.")
+                     f"{machine['system']}, engine {data['engine']}. That command writes {effect}, with figures of "
+                     "that run only.")
 
 
 def table(head, rows, texts=()):

@@ -71,7 +71,7 @@ def verdict(data, ours):
         return None
     best = {key: min(field, key=lambda r: r[key]) for key in ("hausdorff", "rms")}
     fast = min(rivals(data, ours["model"]), key=lambda r: r["cpu"])
-    return {"model": ours["model"], "ratio": ours["cpu"] / fast["cpu"], "fast": fast,
+    return {"model": ours["model"], "angle": ours["angle_min_avg"], "ratio": ours["cpu"] / fast["cpu"], "fast": fast,
             **{key: (ours[key] <= row[key], row) for key, row in best.items()}}
 
 
@@ -85,9 +85,13 @@ def conclusion(mode, found):
     """One sentence."""
     ratios = [v["ratio"] for v in found]
     near, even = (sum(v[key][0] for v in found) for key in ("hausdorff", "rms"))
+    lower = [v["angle"] - row["angle_min_avg"] for v in found for key in ("hausdorff", "rms")
+             for ok, row in [v[key]] if not ok]
+    price = f" The averages of those that are closer are lower by {min(lower):.1f} to {max(lower):.1f} degrees." \
+        if lower else ""
     return (f"{mode['name']}: of {len(found)} models, Hausdorff at most that of the best of the field on {near}, RMS "
             f"on {even}; processor time over the fastest remesher's {min(ratios):.2f} to {max(ratios):.2f}, median "
-            f"{statistics.median(ratios):.2f}, at most 1 on {sum(r <= 1 for r in ratios)}.")
+            f"{statistics.median(ratios):.2f}, at most 1 on {sum(r <= 1 for r in ratios)}.{price}")
 
 
 def field_of(data):
@@ -221,17 +225,15 @@ INTRODUCTION = """Absolute times depend on the machine; the ratios are what coun
   measured by the project's `mesh_quality.h`.
 """
 CONCLUSIONS = """The field: {field}; each column takes the best row of these; the fastest is that of all remeshers. Rows
-whose count is off are left out; † changed the topology. Where others are closer to the input, they are so by rows of
-their averages below, several degrees under ours: who takes every edge that turns by more than the feature angle for a
-crease, also on noise, has the edges of its triangles there, and pays with the angles. `--approximation` buys the same
-at a lower price (its own table)."""
+whose count is off are left out; † changed the topology."""
 SUMMARY = """Ratios above 1: the best of the others needs more time, or is farther from the input, than ours. Rows
 whose count is off are left out; each column has its own best; † changed the topology."""
 
 
 def write(data):
     lines = ["# Beside other remeshers", ""] + pages.stamp(data, "this page")
-    lines += ["", INTRODUCTION.format(**data), "## Conclusions", "", *pages.paragraph(CONCLUSIONS.format(field=field_of(data))), ""] + conclusions_section(data)
+    lines += ["", INTRODUCTION.format(**data), "## Conclusions", ""]
+    lines += [*pages.paragraph(CONCLUSIONS.format(field=field_of(data))), "", *conclusions_section(data)]
     lines += ["", "## Summary", "", SUMMARY] + summary(data) + draw(data)
     lines += ["", "## Remeshers", ""] + peers_section(data) + ["", "## Models"]
     for name, n in models_of(data):
