@@ -142,6 +142,12 @@ compile() {
     cmake --build --preset default -- -v "$@" >build/build.log 2>&1 || { grep -E 'error|FAILED' -A5 build/build.log; fail "the build failed, see build/build.log"; }
 }
 
+# Whether the real models are at hand; else says what becomes of it.
+real_models_or() {
+    local meshes=${CCDM_SHARED:-../shared}/meshes
+    [ -d "$meshes" ] || say "$meshes is not there: $1"
+}
+
 # What users run, without the tests.
 programs=(vcg_ext/apps/ccdm_remesh/all filter_ccdm/all)
 
@@ -199,7 +205,7 @@ run_tests() {
     build
     check_style
     say "tests"
-    [ -d "${CCDM_SHARED:-../shared}/meshes" ] || say "${CCDM_SHARED:-../shared}/meshes is not there: the tests on real models are skipped"
+    real_models_or "the tests on real models are skipped"
     ctest --preset default --output-on-failure
 }
 
@@ -308,7 +314,7 @@ paper() {
     *" --quick "*) ;;
     *) (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed" ;;
     esac
-    [ -d "${CCDM_SHARED:-../shared}/meshes" ] || say "${CCDM_SHARED:-../shared}/meshes is not there: the sample meshes stand for the paper's models"
+    real_models_or "the sample meshes stand for the paper's models"
     /usr/bin/python3 tests/paper/reproduce.py "$@"
 }
 

@@ -260,7 +260,8 @@ class SoundInput
 {
 public:
     SoundInput(const MeshTables &input, RepairKind kind, Workers &workers)
-        : _input(input), _prepared(std::make_unique<InputMesh>(input, workers))
+        : _input(input), _maySplit(kind != RepairKind::Split && input.locked.empty()),
+          _prepared(std::make_unique<InputMesh>(input, workers))
     {
         // What must stay is part of a larger mesh, which is not taken in hand.
         if (!input.locked.empty())
@@ -275,6 +276,14 @@ public:
 
     InputMesh &Prepared() { return *_prepared; }
 
+    /// To end a refusal with: the repair that would take what was refused; empty if none would.
+    std::string Hint() const
+    {
+        const InputDefects &d = _prepared->defects;
+        const bool helps = _maySplit && d.duplicateFaces == 0 && (d.nonManifoldEdges > 0 || d.nonManifoldVertices > 0);
+        return helps ? "; the repair 'split' cuts it apart there" : "";
+    }
+
     /// What Prepared() was made of. The caller's numbers hold, but for vertices that were added at the end.
     const MeshTables &Tables() const { return _repaired ? _repaired->mesh : _input; }
 
@@ -287,6 +296,7 @@ public:
 
 private:
     const MeshTables &_input;
+    const bool _maySplit; // that kind of repair was not asked for
     std::unique_ptr<InputMesh> _prepared;
     std::unique_ptr<InputRepair> _repaired;
     std::vector<int> _copied; // by all steps

@@ -109,6 +109,13 @@ private:
         _schedule.Changed(_flipper.Crossing());
     }
 
+    // Anew at each level: four times the triangles have other energies.
+    void StartEnergies(double first)
+    {
+        _report.energy.assign(1, first);
+        _report.accepted = 0;
+    }
+
     void LevelChords(double minAngle)
     {
         if (_params.approximation > 0)
@@ -156,7 +163,7 @@ private:
         OptimizeLocally();
         Remesh best = _remesh;
         double bestEnergy = Energy(_remesh, _workers);
-        _report.energy.assign(1, bestEnergy);
+        StartEnergies(bestEnergy);
         const int rounds = GlobalIterations(_params);
         for (int i = 0; i < rounds; ++i) {
             Sweep(Perturbation{_params.lambda, _random.Bits()});
@@ -185,7 +192,6 @@ private:
         const int count = GlobalIterations(_params) * _params.localIterations;
         const int first = finer.empty() ? count : static_cast<int>(std::lround(CoarseShare * count));
         const int fine = static_cast<int>(std::lround(FineShare * count));
-        _report.energy.assign(1, Energy(_remesh, _workers));
         // The work of a sweep is in proportion to the vertices.
         double work = static_cast<double>(first) * _remesh.VertexCount(), done = 0;
         for (const int vertices : finer)
@@ -202,9 +208,6 @@ private:
             refinement.Sort();
             _remesh.mesh.KeepRings();
             _schedule.Changed();
-            // The energy of four times the triangles: what the coarse level has reached says nothing about it.
-            _report.energy.assign(1, Energy(_remesh, _workers));
-            _report.accepted = 0;
             done = share;
             share += static_cast<double>(fine) * finer[k] / work;
             if (!Accelerate(fine, FineNoise * _params.lambda, 0.9 * done, 0.9 * share, progress))
@@ -217,6 +220,7 @@ private:
     // plain relocation stalls. `begin` and `end`: its part of the progress.
     bool Accelerate(int count, double noise, double begin, double end, const Progress &progress)
     {
+        StartEnergies(Energy(_remesh, _workers));
         return WithRule([&](const auto &rule) { return AccelerateBy(rule, count, noise, begin, end, progress); });
     }
 

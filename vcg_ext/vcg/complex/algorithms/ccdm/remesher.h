@@ -66,7 +66,7 @@ private:
         _report.defects = prepared.defects;
         _report.inputTopology = prepared.topology;
         if (!prepared.refusal.empty())
-            return Fail(Status::InvalidInput, prepared.refusal + SplitHint(prepared.defects));
+            return Fail(Status::InvalidInput, prepared.refusal + sound.Hint());
         WarnOfDefects();
 
         if (!Begin("finding features", 3, 6))
@@ -94,14 +94,6 @@ private:
         _report.meanEdgeLength = MeanEdgeLength(remesh) * prepared.Scale();
         Finish();
         return true;
-    }
-
-    // What would take a surface that was refused.
-    std::string SplitHint(const InputDefects &defects) const
-    {
-        const bool helps = _params.repair != RepairKind::Split && defects.duplicateFaces == 0 &&
-                           (defects.nonManifoldEdges > 0 || defects.nonManifoldVertices > 0);
-        return helps ? "; the repair 'split' cuts it apart there" : "";
     }
 
     // From the attempt that makes the best mesh to the one that stands most. At a handful of vertices on a
@@ -217,7 +209,6 @@ private:
 
         if (!Begin("optimising", 20, 92))
             return false;
-        _report.accepted = 0;
         _report.flipsBounded = false;
         Optimizer optimizer(model, params, remesh, _report, _workers);
         if (!optimizer.Run(finer, [this](double x) { return Advance(x); }))
