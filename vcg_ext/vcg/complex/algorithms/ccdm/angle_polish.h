@@ -63,7 +63,7 @@ class AnglePolish
 {
 public:
     AnglePolish(const Model &model, Remesh &remesh, Workers &workers)
-        : _remesh(remesh), _schedule(remesh, workers), _relocator(workers.Count(), Relocator(model, remesh))
+        : _remesh(remesh), _schedule(remesh, workers), _relocator(workers, Relocator(model, remesh))
     {
     }
 
@@ -84,7 +84,7 @@ public:
 private:
     Remesh &_remesh;
     PatchSchedule _schedule;
-    std::vector<Relocator> _relocator; // one for each worker
+    PerWorker<Relocator> _relocator;
 
     // Sum of the smallest angles of the star with its centre at q.
     static double Sum(const LocalStar &s, const Point &q, Point *gradient)

@@ -22,7 +22,7 @@ class Approximation
 public:
     Approximation(const Model &model, Remesh &remesh, Probes &probes, Workers &workers)
         : _model(model), _remesh(remesh), _probe(probes), _workers(workers), _schedule(remesh, workers),
-          _relocator(workers.Count(), Relocator(model, remesh)), _watched(workers.Count()), _anchor(workers.Count())
+          _relocator(workers, Relocator(model, remesh)), _watched(workers), _anchor(workers)
     {
     }
 
@@ -78,10 +78,10 @@ private:
     Probes &_probe;
     Workers &_workers;
     PatchSchedule _schedule;
-    std::vector<Relocator> _relocator;                 // one for each worker
-    std::vector<std::array<int, MostProbes>> _watched; // probes of the star at hand, for each worker
-    std::vector<std::vector<Anchor>> _anchor;          // points of the surface next to its samples, for each worker
-    std::vector<double> _stray;                        // of each triangle: mean squared distance of its samples
+    PerWorker<Relocator> _relocator;
+    PerWorker<std::array<int, MostProbes>> _watched; // probes of the star at hand
+    PerWorker<std::vector<Anchor>> _anchor;          // points of the surface next to its samples
+    std::vector<double> _stray;                      // of each triangle: mean squared distance of its samples
     std::vector<std::uint8_t> _active;
     double _mean = 0;    // of the squared distances
     double _weight = 0;  // of a squared distance

@@ -42,12 +42,14 @@ public:
         };
         std::vector<Found> found(Chunks::Count(_remesh.mesh.TriangleCount()));
         Chunks::For(workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int chunk) {
+            Found own;
             for (int t = first; t < last; ++t) {
                 const double angle = Smallest(t);
-                found[chunk].least = std::min(found[chunk].least, angle * 180 / Pi);
+                own.least = std::min(own.least, angle * 180 / Pi);
                 if (!(angle >= _target - Slack))
-                    found[chunk].below.emplace_back(t, angle);
+                    own.below.emplace_back(t, angle);
             }
+            found[chunk] = std::move(own);
         });
         AngleCertificate result;
         result.target = _target * 180 / Pi;

@@ -263,11 +263,13 @@ private:
         std::vector<std::array<int, 2>> found(Chunks::Count(static_cast<int>(vertices)), {0, 0});
         Chunks::For(workers, static_cast<int>(vertices), [&](int first, int last, int chunk) {
             std::vector<std::pair<int, int>> opposite;
+            int duplicates = 0, edges = 0;
             for (int v = first; v < last; ++v) {
-                found[chunk][0] += CountRepeatedFaces(startFace[v], startFace[v + 1], opposite);
+                duplicates += CountRepeatedFaces(startFace[v], startFace[v + 1], opposite);
                 std::sort(other.begin() + start[v], other.begin() + start[v + 1]);
-                found[chunk][1] += CountRunsOverTwo(other, start[v], start[v + 1]);
+                edges += CountRunsOverTwo(other, start[v], start[v + 1]);
             }
+            found[chunk] = {duplicates, edges};
         });
         for (const auto &[duplicates, edges] : found) {
             defects.duplicateFaces += duplicates;

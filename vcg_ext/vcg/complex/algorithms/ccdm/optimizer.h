@@ -27,9 +27,8 @@ public:
 
     Optimizer(const Model &model, const Params &params, Remesh &remesh, Report &report, Workers &workers)
         : _model(model), _params(params), _remesh(remesh), _report(report), _workers(workers),
-          _schedule(remesh, workers), _probes(model, remesh, workers),
-          _relocator(workers.Count(), Relocator(model, remesh)), _flipper(workers),
-          _random(params.seed ^ 0x6f7074696d697a65ULL)
+          _schedule(remesh, workers), _probes(model, remesh, workers), _relocator(workers, Relocator(model, remesh)),
+          _flipper(workers), _random(params.seed ^ 0x6f7074696d697a65ULL)
     {
     }
 
@@ -98,7 +97,7 @@ private:
     Workers &_workers;
     PatchSchedule _schedule;
     Probes _probes;
-    std::vector<Relocator> _relocator; // one for each worker
+    PerWorker<Relocator> _relocator;
     DelaunayFlipper _flipper;
     Random _random;
 

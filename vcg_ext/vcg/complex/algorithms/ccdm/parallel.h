@@ -122,6 +122,27 @@ private:
     }
 };
 
+/// A thing of their own for each of the workers, far enough apart that no two lie on one cache line: the writes of one
+/// would slow down the others. Measured: at a million vertices that took a third of the processor time of two threads.
+template <class T>
+class PerWorker
+{
+public:
+    explicit PerWorker(const Workers &workers, const T &initial = T())
+        : _slot(static_cast<std::size_t>(workers.Count()), Slot{initial})
+    {
+    }
+
+    T &operator[](int worker) { return _slot[static_cast<std::size_t>(worker)].value; }
+
+private:
+    // Lines are fetched in pairs.
+    struct alignas(128) Slot {
+        T value;
+    };
+    std::vector<Slot> _slot;
+};
+
 /// Calls visit(first, last, chunk) for equal runs of [0, count), on several threads; `chunks(count)` of
 /// them.
 struct Chunks {

@@ -35,8 +35,7 @@ public:
 
     ThinParts(const Model &model, Workers &workers)
         : _model(model), _surface(model.surface), _mesh(model.surface.mesh), _sample(LaySamples(model, workers)),
-          _grid(Points(_sample), Spacings(_sample)), _normals(BoundNormals(workers)),
-          _flooding(static_cast<std::size_t>(workers.Count()))
+          _grid(Points(_sample), Spacings(_sample)), _normals(BoundNormals(workers)), _flooding(workers)
     {
     }
     explicit ThinParts(const Model &model) : ThinParts(model, *std::make_unique<Workers>(1)) {}
@@ -63,14 +62,14 @@ public:
     /// that has no inside has none.
     std::optional<double> ThicknessAt(int face, const Point &p, double spacing, double share)
     {
-        return ThicknessAt(face, p, spacing, share, _flooding.front());
+        return ThicknessAt(face, p, spacing, share, _flooding[0]);
     }
 
     /// Unit normal averaged over the surface within `reach` of a point of a face, without crossing a feature.
     Point MeanNormal(int face, const Point &p, double reach)
     {
         Point sum(0, 0, 0);
-        Flood(face, p, reach, false, _flooding.front(), [&](int t) {
+        Flood(face, p, reach, false, _flooding[0], [&](int t) {
             const Point n = _surface.AreaVector(t);
             const double size = Norm(n), most = reach * reach;
             sum += n * (size > most ? most / size : 1);
@@ -102,7 +101,7 @@ private:
     const std::vector<Sample> _sample;
     const SpacedPoints _grid;
     const std::vector<Bounds> _normals; // of the samples of each cell
-    std::vector<Flooding> _flooding;
+    PerWorker<Flooding> _flooding;
     std::once_flag _outwardKnown;
     std::vector<signed char> _outward; // 1: the face's normal points outwards, -1: inwards, 0: there is no outside
 
@@ -459,7 +458,7 @@ private:
             if (s == NoSide || met)
                 continue;
             const Point middle = (a.point + foot) / 2;
-            Flood(SideTriangle(s), middle, 0.75 * distance, false, _flooding.front(), [&](int t) {
+            Flood(SideTriangle(s), middle, 0.75 * distance, false, _flooding[0], [&](int t) {
                 met = t == SideTriangle(to) || (_mesh.Mate(to) != NoSide && t == SideTriangle(_mesh.Mate(to)));
                 return !met;
             });

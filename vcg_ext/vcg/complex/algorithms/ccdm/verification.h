@@ -57,9 +57,10 @@ private:
     {
         std::vector<Part> part(Chunks::Count(count));
         Chunks::For(_workers, count, [&](int first, int last, int chunk) {
-            int k = first;
-            while (k < last && check(k, part[chunk]))
+            Part own;
+            for (int k = first; k < last && check(k, own);)
                 ++k;
+            part[chunk] = own;
         });
         Part sum;
         for (const Part &p : part) {
