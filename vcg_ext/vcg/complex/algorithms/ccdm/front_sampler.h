@@ -28,7 +28,7 @@ public:
         _head.assign(size, -1);
         _entry.reserve(expected);
         for (int level = 0; level < Levels; ++level)
-            _cell[level] = std::ldexp(base, level - BaseLevel);
+            _cell[level] = std::ldexp(base, level - BaseLevel + 1);
     }
 
     int Size() const { return static_cast<int>(_entry.size()); }
@@ -156,7 +156,7 @@ public:
                 best.swap(found);
                 _bestScale = scale;
             }
-            if (miss <= 2 + count / 200)
+            if (miss <= 2 + count / 100)
                 break;
             scale *= std::sqrt(static_cast<double>(std::max(size, 1)) / count);
         }
@@ -177,6 +177,7 @@ private:
     struct Sample {
         SurfacePoint at;
         Point point, direction; // the direction in which the front came, in the plane of its face
+        bool seed;              // no front came: any direction
     };
 
     // Measured: gaps where fronts meet leave 2 to 6 percent too few points at the wanted spacing.
@@ -261,7 +262,7 @@ private:
         drain();
         // Where the front has not come: other components, and pockets behind narrow places.
         for (const SurfacePoint &p : SampleFaces(_surface, _density, count, random)) {
-            Take(buckets, p, Any(p.face), found);
+            Take(buckets, p, Any(p.face), true, found);
             drain();
         }
         return found;
@@ -295,14 +296,15 @@ private:
     // Some direction in the plane of a face.
     Point Any(int face) const { return Corner(face, 1) - Corner(face, 0); }
 
-    bool Take(PointBuckets &buckets, const SurfacePoint &at, const Point &direction, std::vector<SurfacePoint> &found)
+    bool Take(PointBuckets &buckets, const SurfacePoint &at, const Point &direction, bool seed,
+              std::vector<SurfacePoint> &found)
     {
         const Point p = _surface.At(at), normal = Normalized(_surface.AreaVector(at.face));
         const double h = Spacing(at);
         if (!Free(buckets, p, at.face, normal, 0.7 * h, h))
             return false;
         Keep(buckets, {p, normal, at.face, false}, h);
-        _queue.push_back({at, p, direction});
+        _queue.push_back({at, p, direction, seed});
         found.push_back(at);
         return true;
     }
@@ -317,8 +319,9 @@ private:
         constexpr double half = 0.5, root = 0.8660254037844386;
         const double turn[6][2] = {{1, 0}, {half, root}, {half, -root}, {-half, root}, {-half, -root}, {-1, 0}};
         const double h = Spacing(s.at);
-        for (const auto &t : turn)
-            Propose(buckets, s.at, s.point, normal, along * t[0] + across * t[1], h, found);
+        // The last leads back to where the front came from.
+        for (int k = 0; k < (s.seed ? 6 : 5); ++k)
+            Propose(buckets, s.at, s.point, normal, along * turn[k][0] + across * turn[k][1], h, found);
     }
 
     // Into both faces, where the apices of equilateral triangles on the curve would lie.
@@ -362,65 +365,99 @@ private:
         if (taken)
             return;
         SurfacePoint at = from;
-        Point x = start, d = direction;
-        if (Trace(at, x, d, length))
-            Take(buckets, at, d, found);
+        Point d = direction;
+        if (Trace(at, start, d, length))
+            Take(buckets, at, d, false, found);
     }
 
-    // Follows a straight line over the unfolded faces. False when it meets a feature or gets nowhere.
-    bool Trace(SurfacePoint &at, Point &x, Point &direction, double length) const
+    // Follows a straight line from x over the unfolded faces; `direction` is of length 1 and in the plane of the first.
+    // Afterwards `at` is its end, and `direction` that in which it got there. False when it meets a feature or gets
+    // nowhere.
+    bool Trace(SurfacePoint &at, const Point &x, Point &direction, double length) const
     {
-        Side entry = NoSide;
-        for (int step = 0; step < 1000; ++step) {
-            const Triangle &T = _surface.mesh.triangle[at.face];
-            const Point &p0 = _surface.position[T.v[0]];
-            const Point e1 = _surface.position[T.v[1]] - p0, e2 = _surface.position[T.v[2]] - p0, n = Cross(e1, e2);
-            const double nn = SquaredNorm(n);
-            if (!(nn > 0))
-                return false;
-            const Point r = x - p0;
-            double w[3], rate[3];
+        const Triangle &first = _surface.mesh.triangle[at.face];
+        const Point &p0 = _surface.position[first.v[0]];
+        const Point e1 = _surface.position[first.v[1]] - p0, e2 = _surface.position[first.v[2]] - p0, n = Cross(e1, e2);
+        const double nn = SquaredNorm(n);
+        if (!(nn > 0))
+            return false;
+        const auto weights = [&](const Point &r, double *w) {
             w[1] = Dot(Cross(r, e2), n) / nn;
             w[2] = Dot(Cross(e1, r), n) / nn;
-            w[0] = 1 - w[1] - w[2];
-            rate[1] = Dot(Cross(direction, e2), n) / nn;
-            rate[2] = Dot(Cross(e1, direction), n) / nn;
-            rate[0] = -rate[1] - rate[2];
-            int exit = -1;
-            double way = length;
-            for (int i = 0; i < 3; ++i)
-                if (rate[i] < 0 && (entry == NoSide || SideEdge(entry) != i)) {
-                    const double t = std::max(w[i], 0.0) / -rate[i];
-                    if (t < way) {
-                        way = t;
-                        exit = i;
-                    }
-                }
-            x += direction * way;
-            length -= way;
-            if (exit < 0) {
-                double sum = 0;
-                for (int i = 0; i < 3; ++i)
-                    sum += at.weight[i] = std::max(w[i] + rate[i] * way, 0.0);
-                for (double &weight : at.weight)
-                    weight /= sum;
-                return sum > 0;
+        };
+        double w[3], rate[3];
+        weights(x - p0, w);
+        w[0] = 1 - w[1] - w[2];
+        weights(direction, rate);
+        rate[0] = -rate[1] - rate[2];
+        int exit = -1;
+        double way = length;
+        for (int i = 0; i < 3; ++i)
+            if (rate[i] < 0 && std::max(w[i], 0.0) < way * -rate[i]) {
+                way = std::max(w[i], 0.0) / -rate[i];
+                exit = i;
             }
+        if (exit < 0)
+            return Settle(at, w[0] + rate[0] * way, w[1] + rate[1] * way, w[2] + rate[2] * way);
+
+        // Unfolded into a plane, the line is the x-axis: what counts of each edge is where its ends lie, to the left
+        // and to the right of it.
+        struct End {
+            int vertex;
+            double x, y;
+        };
+        const Point across = Cross(n, direction) / std::sqrt(nn);
+        const auto place = [&](int v) {
+            const Point r = _surface.position[v] - x;
+            return End{v, Dot(r, direction), Dot(r, across)};
+        };
+        End right = place(first.v[Next(exit)]), left = place(first.v[Prev(exit)]);
+        for (int step = 0; step < 1000; ++step) {
+            const Triangle &T = _surface.mesh.triangle[at.face];
             const Side mate = T.n[exit];
             if (mate == NoSide || T.Constrained(exit))
                 return false;
-            // Turn the direction around the edge into the next face.
-            const Point &tail = _surface.position[T.v[Next(exit)]];
-            const Point edge = Normalized(_surface.position[T.v[Prev(exit)]] - tail);
-            const double along = Dot(direction, edge);
-            const double across = std::sqrt(std::max(SquaredNorm(direction) - along * along, 0.0));
-            const Point apex = _surface.position[_surface.mesh.Opposite(mate)] - tail;
-            const Point inward = Normalized(apex - edge * Dot(apex, edge));
-            direction = edge * along + inward * across;
             at.face = SideTriangle(mate);
-            entry = mate;
+            const Triangle &U = _surface.mesh.triangle[at.face];
+            const int i = SideEdge(mate), atLeft = U.v[Next(i)] == left.vertex ? Next(i) : Prev(i);
+            const Point &r = _surface.position[right.vertex];
+            const Point edge = _surface.position[left.vertex] - r, toApex = _surface.position[U.v[i]] - r;
+            const double ex = left.x - right.x, ey = left.y - right.y, squared = SquaredNorm(edge);
+            if (!(squared > 0))
+                return false;
+            const double along = Dot(toApex, edge) / squared;
+            const double height = std::sqrt(std::max(SquaredNorm(toApex) / squared - along * along, 0.0));
+            const End apex = {U.v[i], right.x + along * ex + height * ey, right.y + along * ey - height * ex};
+            // The far edge that the line leaves by, and whether its end comes before.
+            const bool turnsRight = apex.y > 0;
+            const End &l = turnsRight ? apex : left, &m = turnsRight ? right : apex;
+            if (m.x * l.y - l.x * m.y >= length * (l.y - m.y)) {
+                if (!(height > 0))
+                    return false;
+                // (length, 0) - right = s * edge + t * its normal
+                const double dx = length - right.x, dy = -right.y, plane = ex * ex + ey * ey;
+                const double s = (dx * ex + dy * ey) / plane, t = (dx * ey - dy * ex) / plane;
+                double weight[3];
+                weight[i] = t / height;
+                weight[atLeft] = s - along * weight[i];
+                weight[3 - i - atLeft] = 1 - weight[i] - weight[atLeft];
+                direction = Normalized(edge * ex + (toApex - edge * along) * (ey / height));
+                return Settle(at, weight[0], weight[1], weight[2]);
+            }
+            exit = turnsRight ? atLeft : 3 - i - atLeft;
+            (turnsRight ? left : right) = apex;
         }
         return false;
+    }
+
+    // The point of a face with these weights, but for rounding. False if there is none.
+    static bool Settle(SurfacePoint &at, double w0, double w1, double w2)
+    {
+        const double weight[3] = {std::max(w0, 0.0), std::max(w1, 0.0), std::max(w2, 0.0)};
+        const double sum = weight[0] + weight[1] + weight[2];
+        for (int i = 0; i < 3; ++i)
+            at.weight[i] = weight[i] / sum;
+        return sum > 0;
     }
 
     // Takes away the samples with the nearest neighbours.
