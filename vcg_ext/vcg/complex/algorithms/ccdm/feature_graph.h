@@ -42,6 +42,14 @@ struct FeatureCurve {
     {
         return 2 * (arc[segment + 1] - arc[segment]) / (spacing[vertex[segment]] + spacing[vertex[segment + 1]]);
     }
+    /// Its whole length in units of the spacing.
+    double InSpacings(const std::vector<double> &spacing) const
+    {
+        double length = 0;
+        for (int k = 0; k < Segments(); ++k)
+            length += InSpacings(k, spacing);
+        return length;
+    }
     /// Arc length s brought onto the curve: around a closed one, to the nearer end of another.
     double OnCurve(double s) const
     {

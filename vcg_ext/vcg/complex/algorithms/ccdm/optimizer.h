@@ -191,6 +191,8 @@ private:
         const int count = GlobalIterations(_params) * _params.localIterations;
         const int first = finer.empty() ? count : static_cast<int>(std::lround(CoarseShare * count));
         const int fine = static_cast<int>(std::lround(FineShare * count));
+        if (!finer.empty())
+            MeetFiner(finer.front());
         // The work of a sweep is in proportion to the vertices.
         double work = static_cast<double>(first) * _remesh.VertexCount(), done = 0;
         for (const int vertices : finer)
@@ -204,15 +206,33 @@ private:
             refinement.Run(_workers);
             refinement.SplitLongest(finer[k] - _remesh.VertexCount());
             Polish(_model, _remesh).Unfold(10);
-            refinement.Sort();
-            _remesh.mesh.KeepRings();
-            _schedule.Changed();
+            Rearrange(refinement);
             done = share;
             share += static_cast<double>(fine) * finer[k] / work;
             if (!Accelerate(fine, FineNoise * _params.lambda, 0.9 * done, 0.9 * share, progress))
                 return false;
         }
         return Settle(progress);
+    }
+
+    // Adds what the coarse mesh lacks to become one of so many vertices when it is refined: between features that are
+    // close together there will be none.
+    void MeetFiner(int vertices)
+    {
+        Refinement refinement(_model, _remesh);
+        const int lacking = (vertices - refinement.CountAfter()) / 4;
+        if (lacking <= 0)
+            return;
+        refinement.SplitLongest(lacking);
+        Rearrange(refinement);
+    }
+
+    // Once vertices were added or taken away.
+    void Rearrange(Refinement &refinement)
+    {
+        refinement.Sort();
+        _remesh.mesh.KeepRings();
+        _schedule.Changed();
     }
 
     // Momentum on the relocation rule, with noise that fades out: moves past the poor local optima where

@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
+#include <vcg/complex/algorithms/ccdm/vertex_removal.h>
 
 namespace vcg {
 namespace ccdm {
 
 /// Splits every triangle of a remesh in four. The new vertices lie on the surface, those of feature edges on
-/// their curves. A mesh that was improved when it was coarse so becomes one with few irregular vertices.
+/// their curves; where there is no room between features there are none. A mesh that was improved when it was coarse so
+/// becomes one with few irregular vertices.
 class Refinement
 {
 public:
@@ -29,45 +32,62 @@ public:
     void Run(Workers &workers)
     {
         const Triangulation &m = _remesh.mesh;
+        const int before = _remesh.VertexCount();
         std::vector<std::array<int, 3>> middle(m.triangle.size());
         std::vector<Side> split;
-        for (int t = 0; t < m.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e), mate = m.Mate(s);
-                if (mate != NoSide && mate < s) {
-                    middle[t][e] = middle[SideTriangle(mate)][SideEdge(mate)];
-                } else {
-                    middle[t][e] = _remesh.VertexCount() + static_cast<int>(split.size());
-                    split.push_back(s);
-                }
-            }
+        std::vector<int> crowded;
+        VisitEdges([&](Side s) {
+            const int v = before + static_cast<int>(split.size());
+            for (const Side side : {s, m.Mate(s)})
+                if (side != NoSide)
+                    middle[SideTriangle(side)][SideEdge(side)] = v;
+            split.push_back(s);
+            if (Crowded(s))
+                crowded.push_back(v);
+        });
+        const std::vector<int> spare = SpareOnCurves();
         AddMiddles(split, workers);
+        CollectSpare(before, spare, crowded);
         _remesh.mesh = Quartered(middle, workers);
+        if (!crowded.empty())
+            Remove(crowded);
+    }
+
+    /// How many vertices Run would lead to, but for those that cannot be taken out.
+    int CountAfter() const
+    {
+        int count = _remesh.VertexCount();
+        VisitEdges([&](Side s) { count += Crowded(s) ? 0 : 1; });
+        for (const int spare : SpareOnCurves())
+            count -= spare;
+        return count;
     }
 
     /// Adds vertices in the middle of the longest edges that are no features.
     void SplitLongest(int count)
     {
+        if (count <= 0)
+            return;
+        struct Edge {
+            double length;
+            int tail, head;
+        };
+        const Triangulation &m = _remesh.mesh;
+        std::vector<Edge> longest;
+        VisitEdges([&](Side s) {
+            const int tail = m.Tail(s), head = m.Head(s);
+            if (!m.Constrained(s))
+                longest.push_back({SquaredNorm(_remesh.position[head] - _remesh.position[tail]), tail, head});
+        });
+        count = std::min(count, static_cast<int>(longest.size()));
+        std::partial_sort(longest.begin(), longest.begin() + count, longest.end(), [](const Edge &a, const Edge &b) {
+            return std::tie(b.length, a.tail, a.head) < std::tie(a.length, b.tail, b.head);
+        });
+        Workers alone(1);
         for (int i = 0; i < count; ++i) {
-            const Triangulation &m = _remesh.mesh;
-            Side longest = NoSide;
-            double length = 0;
-            for (int t = 0; t < m.TriangleCount(); ++t)
-                for (int e = 0; e < 3; ++e) {
-                    const Side s = MakeSide(t, e);
-                    if (m.Mate(s) <= s || m.Constrained(s))
-                        continue;
-                    const double l = SquaredNorm(_remesh.position[m.Head(s)] - _remesh.position[m.Tail(s)]);
-                    if (l > length) {
-                        length = l;
-                        longest = s;
-                    }
-                }
-            if (longest == NoSide)
-                return;
-            Workers alone(1);
-            AddMiddles({longest}, alone);
-            _remesh.mesh.SplitEdge(longest, _remesh.VertexCount() - 1);
+            const Side s = m.FindEdge(longest[i].tail, longest[i].head);
+            AddMiddles({s}, alone);
+            _remesh.mesh.SplitEdge(s, _remesh.VertexCount() - 1);
         }
     }
 
@@ -92,8 +112,88 @@ public:
     }
 
 private:
+    /// Edges between features that are shorter than so many spacings are not halved: no sample is to be nearer to a
+    /// feature than half of that, as in the front sampler.
+    static constexpr double MostCrowded = 1.4;
+
     const Model &_model;
     Remesh &_remesh;
+
+    // Calls visit(side) once for every edge.
+    template <class Visit>
+    void VisitEdges(const Visit &visit) const
+    {
+        const Triangulation &m = _remesh.mesh;
+        for (int t = 0; t < m.TriangleCount(); ++t)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(t, e);
+                if (m.Mate(s) == NoSide || m.Mate(s) > s)
+                    visit(s);
+            }
+    }
+
+    // An edge between features, that is none itself, with no room for a vertex in its middle.
+    bool Crowded(Side s) const
+    {
+        const int a = _remesh.mesh.Tail(s), b = _remesh.mesh.Head(s);
+        if (_remesh.mesh.Constrained(s) || _remesh.place[a].kind == VertexKind::Free ||
+            _remesh.place[b].kind == VertexKind::Free)
+            return false;
+        const int near = _model.surface.mesh.triangle[_remesh.place[a].face].v[0];
+        const double room = MostCrowded * _model.density.spacing[near];
+        return SquaredNorm(_remesh.position[a] - _remesh.position[b]) < room * room;
+    }
+
+    // How many vertices each curve would have too many with all of its edges halved: those of short ones would lie much
+    // closer together than wanted.
+    std::vector<int> SpareOnCurves() const
+    {
+        const std::vector<FeatureCurve> &curve = _model.features.curve;
+        std::vector<int> spare(curve.size(), 0);
+        for (const Place &p : _remesh.place)
+            if (p.kind == VertexKind::Curve)
+                ++spare[p.curve];
+        for (std::size_t k = 0; k < curve.size(); ++k) {
+            const int edges = spare[k] + (curve[k].closed ? 0 : 1);
+            const double length = curve[k].InSpacings(_model.density.spacing);
+            const int wanted = std::max(static_cast<int>(std::lround(length)), edges);
+            spare[k] = 2 * wanted < 3 * edges ? 2 * edges - wanted : 0;
+        }
+        return spare;
+    }
+
+    // Appends `spare` vertices of each curve, evenly among those from number `first` on.
+    void CollectSpare(int first, const std::vector<int> &spare, std::vector<int> &crowded) const
+    {
+        std::vector<std::vector<std::pair<double, int>>> added(spare.size());
+        for (int v = first; v < _remesh.VertexCount(); ++v) {
+            const Place &p = _remesh.place[v];
+            if (p.kind == VertexKind::Curve && spare[p.curve] > 0)
+                added[p.curve].emplace_back(p.s, v);
+        }
+        for (std::size_t k = 0; k < spare.size(); ++k) {
+            std::sort(added[k].begin(), added[k].end());
+            const std::size_t share = static_cast<std::size_t>(spare[k]), all = added[k].size();
+            for (std::size_t i = 0; i < all; ++i)
+                if ((i + 1) * share / all > i * share / all)
+                    crowded.push_back(added[k][i].second);
+        }
+    }
+
+    void Remove(const std::vector<int> &vertices)
+    {
+        std::vector<char> kept(_remesh.position.size(), 1);
+        for (const int v : vertices)
+            kept[v] = 0;
+        VertexRemoval(_remesh.mesh, _remesh.position, _remesh.place).RemoveAll(kept, _remesh.VertexCount(), [](double) {
+            return true;
+        });
+        std::vector<int> left;
+        for (int v = 0; v < _remesh.VertexCount(); ++v)
+            if (_remesh.mesh.incident[v] >= 0)
+                left.push_back(v);
+        Renumber(left);
+    }
 
     // Puts vertex i of the new ones into the middle of split[i].
     void AddMiddles(const std::vector<Side> &split, Workers &workers)

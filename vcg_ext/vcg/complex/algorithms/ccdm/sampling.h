@@ -26,12 +26,12 @@ struct SampleSet {
 };
 
 /// Fewest segments that keep the shape and the type of a curve: three for a closed one, and for one
-/// that ends where it starts; two where it is far from straight or `twin` (another curve joins the
-/// same corners), else one.
-inline int FewestSegments(const FeatureCurve &c, const std::vector<Point> &position, bool twin)
+/// that ends where it starts, four if they are to be `halved`, as three can slide together; two where it is far from
+/// straight or `twin` (another curve joins the same corners), else one.
+inline int FewestSegments(const FeatureCurve &c, const std::vector<Point> &position, bool twin, bool halved = false)
 {
     if (c.vertex.front() == c.vertex.back())
-        return 3;
+        return halved ? 4 : 3;
     const double chord = Norm(position[c.vertex.front()] - position[c.vertex.back()]);
     return twin || c.Length() > 1.2 * chord ? 2 : 1;
 }
@@ -63,17 +63,16 @@ inline void WidenForCurves(const FeatureGraph &features, int vertices, std::vect
 {
     double wanted = 0;
     for (const FeatureCurve &c : features.curve)
-        for (int k = 0; k < c.Segments(); ++k)
-            wanted += c.InSpacings(k, spacing);
+        wanted += c.InSpacings(spacing);
     const double factor = wanted / (4.0 * vertices);
     if (factor > 1)
         for (double &h : spacing)
             h *= factor;
 }
 
-/// Samples of all curves, `stretch` times as far apart as the density wants.
+/// Samples of all curves, `stretch` times as far apart as the density wants. `halved`: for segments that will be.
 inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, const FeatureGraph &features,
-                                             const DensityField &density, double stretch = 1)
+                                             const DensityField &density, double stretch = 1, bool halved = false)
 {
     std::vector<std::pair<int, int>> ends;
     for (const FeatureCurve &c : features.curve)
@@ -87,7 +86,7 @@ inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, co
             continue;
         const auto range = std::equal_range(sorted.begin(), sorted.end(), ends[i]);
         SampleCurve(density, c, static_cast<int>(i),
-                    FewestSegments(c, surface.position, range.second - range.first > 1), stretch, samples);
+                    FewestSegments(c, surface.position, range.second - range.first > 1, halved), stretch, samples);
     }
     return samples;
 }
@@ -95,16 +94,16 @@ inline std::vector<CurveSample> SampleCurves(const ReferenceSurface &surface, co
 /// Samples of all curves, further apart than the density wants if there would be more than `most`; still more only if
 /// the curves cannot do with fewer.
 inline std::vector<CurveSample> SampleCurvesWithin(const ReferenceSurface &surface, const FeatureGraph &features,
-                                                   const DensityField &density, int most)
+                                                   const DensityField &density, int most, bool halved = false)
 {
-    std::vector<CurveSample> samples = SampleCurves(surface, features, density);
+    std::vector<CurveSample> samples = SampleCurves(surface, features, density, 1, halved);
     if (static_cast<int>(samples.size()) <= most)
         return samples;
-    const std::size_t fewest = SampleCurves(surface, features, density, 1e9).size();
+    const std::size_t fewest = SampleCurves(surface, features, density, 1e9, halved).size();
     // What the curves cannot keep to anyway is passed by a fifth more, or the long ones would starve as well.
     const std::size_t limit = static_cast<int>(fewest) <= most ? static_cast<std::size_t>(most) : fewest + fewest / 5;
     for (double stretch = 1.05; samples.size() > limit; stretch *= 1.05)
-        samples = SampleCurves(surface, features, density, stretch);
+        samples = SampleCurves(surface, features, density, stretch, halved);
     return samples;
 }
 
