@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/parallel.h>
 
+#include <cstdint>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -99,6 +100,19 @@ TEST(PatchSchedule, FollowsFlipsAsIfItLookedAnew)
         EXPECT_EQ(order(schedule), order(anew));
     }
     EXPECT_NE(order(schedule), before);
+}
+
+TEST(PerWorker, KeepsEachOnLinesOfItsOwn)
+{
+    const Workers workers(3);
+    PerWorker<char> own(workers, 'a');
+    for (int w = 0; w < workers.Count(); ++w) {
+        EXPECT_EQ(own[w], 'a');
+        own[w] = static_cast<char>('b' + w);
+        EXPECT_EQ(reinterpret_cast<std::uintptr_t>(&own[w]) % 128, 0U);
+    }
+    for (int w = 0; w < workers.Count(); ++w)
+        EXPECT_EQ(own[w], 'b' + w);
 }
 
 } // namespace

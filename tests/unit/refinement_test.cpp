@@ -16,7 +16,7 @@ TEST(Refinement, QuartersEveryTriangleOnTheSurface)
 {
     for (const shapes::Shape &s :
          {shapes::Bumpy(2), shapes::KleinBottle(16, 8), shapes::Plate(12), shapes::CadPart()}) {
-        const Model model = meshes::MakeModel(s, 300, 40);
+        const Model model = meshes::MakeModel(s, 30000, 40);
         Remesh r = meshes::AsRemesh(model);
         const TopologyCounts before = VerifyTriangulation(r.mesh).counts;
         Refinement(model, r).Run();
@@ -32,7 +32,7 @@ TEST(Refinement, QuartersEveryTriangleOnTheSurface)
 
 TEST(Refinement, HalvesFeatureEdges)
 {
-    const Model model = meshes::MakeModel(shapes::Box(1, 2, 3), 8, 40);
+    const Model model = meshes::MakeModel(shapes::Box(1, 2, 3), 800, 40);
     Remesh r = meshes::AsRemesh(model);
     Refinement(model, r).Run();
     int constrained = 0;
@@ -40,6 +40,50 @@ TEST(Refinement, HalvesFeatureEdges)
         for (int e = 0; e < 3; ++e)
             constrained += r.mesh.Constrained(MakeSide(t, e));
     EXPECT_EQ(constrained, 2 * 24) << "two sides of the twelve edges' halves";
+}
+
+TEST(Refinement, PutsNoVerticesBetweenFeaturesThatAreCloseTogether)
+{
+    for (const shapes::Shape &s : {shapes::Box(4, 4, 0.3), shapes::Plate(12)}) {
+        const Model model = meshes::MakeModel(s, 200, 40);
+        Remesh r = meshes::AsRemesh(model);
+        const TopologyCounts before = VerifyTriangulation(r.mesh).counts;
+        Refinement refinement(model, r);
+        const int foretold = refinement.CountAfter();
+        EXPECT_LT(foretold, before.vertices + before.edges);
+        refinement.Run();
+        const Verification v = VerifyTriangulation(r.mesh);
+        EXPECT_EQ(v.fault, "");
+        EXPECT_TRUE(v.counts.SameTypeAs(before));
+        EXPECT_EQ(v.counts.vertices, foretold);
+    }
+}
+
+TEST(Refinement, HalvesNoCreaseThatIsShorterThanTheSpacing)
+{
+    // Twelve vertices on a box whose spacing is above its height: its upright edges stay whole.
+    const shapes::Shape box = shapes::Box(8, 8, 1);
+    const Model model = meshes::MakeModel(box, 40, 40);
+    ASSERT_GT(model.density.spacing[0], 1.5);
+    Remesh r = meshes::AsRemesh(model);
+    Refinement(model, r).Run();
+    int upright = 0;
+    for (int t = 0; t < r.mesh.TriangleCount(); ++t)
+        for (int e = 0; e < 3; ++e) {
+            const Side s = MakeSide(t, e);
+            const Point d = r.position[r.mesh.Head(s)] - r.position[r.mesh.Tail(s)];
+            upright += r.mesh.Constrained(s) && std::abs(d[2]) > 0.999;
+        }
+    EXPECT_EQ(upright, 2 * 4) << "two sides of the four edges";
+}
+
+TEST(Refinement, LeavesNoMoreThanItMay)
+{
+    const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
+    Remesh r = meshes::AsRemesh(model);
+    Refinement(model, r).Run(meshes::Alone(), 2500);
+    EXPECT_EQ(r.VertexCount(), 2500) << "not the 2562 that quartering makes";
+    EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
 }
 
 TEST(Refinement, SplitsAndSorts)

@@ -203,7 +203,7 @@ private:
         for (std::size_t k = 0; k < finer.size(); ++k) {
             Polish(_model, _remesh).Unfold(10);
             Refinement refinement(_model, _remesh);
-            refinement.Run(_workers);
+            refinement.Run(_workers, finer[k]);
             refinement.SplitLongest(finer[k] - _remesh.VertexCount());
             Polish(_model, _remesh).Unfold(10);
             Rearrange(refinement);

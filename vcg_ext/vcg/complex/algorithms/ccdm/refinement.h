@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -27,9 +28,10 @@ public:
     void Run()
     {
         Workers alone(1);
-        Run(alone);
+        Run(alone, std::numeric_limits<int>::max());
     }
-    void Run(Workers &workers)
+    /// `most`: vertices that may come of it; what is above that is taken out where it is narrowest.
+    void Run(Workers &workers, int most)
     {
         const Triangulation &m = _remesh.mesh;
         const int before = _remesh.VertexCount();
@@ -49,8 +51,8 @@ public:
         AddMiddles(split, workers);
         CollectSpare(before, spare, crowded);
         _remesh.mesh = Quartered(middle, workers);
-        if (!crowded.empty())
-            Remove(crowded);
+        if (!crowded.empty() || _remesh.VertexCount() > most)
+            Remove(crowded, most);
     }
 
     /// How many vertices Run would lead to, but for those that cannot be taken out.
@@ -180,14 +182,13 @@ private:
         }
     }
 
-    void Remove(const std::vector<int> &vertices)
+    // `most`: that may be left.
+    void Remove(const std::vector<int> &vertices, int most)
     {
         std::vector<char> kept(_remesh.position.size(), 1);
         for (const int v : vertices)
             kept[v] = 0;
-        VertexRemoval(_remesh.mesh, _remesh.position, _remesh.place).RemoveAll(kept, _remesh.VertexCount(), [](double) {
-            return true;
-        });
+        VertexRemoval(_remesh.mesh, _remesh.position, _remesh.place).RemoveAll(kept, most, [](double) { return true; });
         std::vector<int> left;
         for (int v = 0; v < _remesh.VertexCount(); ++v)
             if (_remesh.mesh.incident[v] >= 0)
