@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm_remeshing.h>
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <vcg/complex/algorithms/mesh_quality.h>
@@ -63,6 +67,53 @@ TEST(CCDMRemeshing, EnergyNeverRisesBetweenPins)
         EXPECT_LE(r.energy[k], r.energy[k - 1]);
     EXPECT_LT(r.energy[30], r.energy[0]);
     EXPECT_LE(r.accepted, 30);
+}
+
+// A small box beside a large smooth surface: creases few enough for a coarse level.
+TEST(CCDMRemeshing, KeepsAFewCreasesThroughTheCoarseLevel)
+{
+    const shapes::Shape s = shapes::Together(shapes::Bumpy(4), shapes::Box(0.3, 0.25, 0.2), 3);
+    std::vector<std::array<double, 3>> first;
+    for (const int threads : {1, 2}) {
+        MeshD m;
+        meshes::Fill(m, s);
+        Params p = Quick(5000);
+        p.globalIterations = 10;
+        p.threads = threads;
+        const Report r = Remesh(m, p);
+        ASSERT_EQ(r.status, Status::Done) << r.message;
+        EXPECT_EQ(m.VN(), 5000);
+        EXPECT_TRUE(r.topologyPreserved);
+        EXPECT_EQ(r.featureCorners, 8);
+        EXPECT_EQ(r.featureCurves, 12);
+        EXPECT_GT(vcg::tri::MeshQuality<MeshD>::Measure(m).pctValence6, 94) << "as only a coarse level leaves";
+        std::vector<std::array<double, 3>> points;
+        for (const auto &v : m.vert)
+            points.push_back({v.cP()[0], v.cP()[1], v.cP()[2]});
+        for (std::size_t k = s.points.size() - 8; k < s.points.size(); ++k)
+            EXPECT_EQ(std::count(points.begin(), points.end(), s.points[k]), 1) << "corner " << k;
+        if (threads == 1)
+            first = points;
+        else
+            EXPECT_EQ(points, first);
+    }
+}
+
+// Eighty corners of the boundary are too many for half the resolution.
+TEST(CCDMRemeshing, KeepsAFixedBoundaryAtManyVertices)
+{
+    const shapes::Shape s = shapes::FlatGrid(20);
+    for (const int n : {4500, 20000}) {
+        MeshD m;
+        meshes::Fill(m, s);
+        Params p = Quick(n);
+        p.boundary = vcg::ccdm::BoundaryKind::Fixed;
+        const Report r = Remesh(m, p);
+        ASSERT_EQ(r.status, Status::Done) << r.message;
+        EXPECT_EQ(m.VN(), n);
+        EXPECT_EQ(r.featureCorners, 80);
+        EXPECT_TRUE(r.topologyPreserved);
+    }
 }
 
 TEST(CCDMRemeshing, SkipsDeletedElements)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/refinement.h>
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <vcg/complex/algorithms/ccdm/verification.h>
@@ -59,9 +61,32 @@ TEST(Refinement, PutsNoVerticesBetweenFeaturesThatAreCloseTogether)
     }
 }
 
+TEST(Refinement, PutsVerticesBetweenFeaturesOnTheirOwnSide)
+{
+    // All eight vertices are corners, each known by one of the faces around it.
+    const Model model = meshes::MakeModel(shapes::Box(8, 8, 1), 20000, 40);
+    Remesh r = meshes::AsRemesh(model);
+    std::vector<Point> middle;
+    for (int t = 0; t < r.mesh.TriangleCount(); ++t)
+        for (int e = 0; e < 3; ++e) {
+            const Side s = MakeSide(t, e);
+            if (!r.mesh.Constrained(s))
+                middle.push_back((r.position[r.mesh.Tail(s)] + r.position[r.mesh.Head(s)]) / 2);
+        }
+    ASSERT_EQ(middle.size(), 2U * 6);
+    Refinement(model, r).Run();
+    for (const Point &p : middle) {
+        int there = 0;
+        for (int v = 0; v < r.VertexCount(); ++v)
+            there += SquaredNorm(r.position[v] - p) < 1e-20 && r.place[v].kind == VertexKind::Free &&
+                     model.surface.NearestOn(r.place[v].face, p).squaredDistance < 1e-20;
+        EXPECT_EQ(there, 1) << p[0] << ", " << p[1] << ", " << p[2];
+    }
+}
+
 TEST(Refinement, HalvesNoCreaseThatIsShorterThanTheSpacing)
 {
-    // Twelve vertices on a box whose spacing is above its height: its upright edges stay whole.
+    // The spacing is above the height of the box: its upright edges stay whole.
     const shapes::Shape box = shapes::Box(8, 8, 1);
     const Model model = meshes::MakeModel(box, 40, 40);
     ASSERT_GT(model.density.spacing[0], 1.5);

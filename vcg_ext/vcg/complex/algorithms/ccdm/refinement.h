@@ -18,8 +18,8 @@ namespace vcg {
 namespace ccdm {
 
 /// Splits every triangle of a remesh in four. The new vertices lie on the surface, those of feature edges on
-/// their curves; where there is no room between features there are none. A mesh that was improved when it was coarse so
-/// becomes one with few irregular vertices.
+/// their curves; between features that leave no room there are none. So a mesh that was improved when it was coarse
+/// becomes a fine one with few irregular vertices.
 class Refinement
 {
 public:
@@ -30,7 +30,8 @@ public:
         Workers alone(1);
         Run(alone, std::numeric_limits<int>::max());
     }
-    /// `most`: vertices that may come of it; what is above that is taken out where it is narrowest.
+    /// `most`: vertices that may come of it; what is above that is taken out where it is narrowest, as far as it can
+    /// be.
     void Run(Workers &workers, int most)
     {
         const Triangulation &m = _remesh.mesh;
@@ -65,7 +66,7 @@ public:
         return count;
     }
 
-    /// Adds vertices in the middle of the longest edges that are no features.
+    /// Adds vertices in the middle of the longest edges, for the spacing there, that are no features.
     void SplitLongest(int count)
     {
         if (count <= 0)
@@ -79,7 +80,7 @@ public:
         VisitEdges([&](Side s) {
             const int tail = m.Tail(s), head = m.Head(s);
             if (!m.Constrained(s))
-                longest.push_back({SquaredNorm(_remesh.position[head] - _remesh.position[tail]), tail, head});
+                longest.push_back({SquaredLength(s), tail, head});
         });
         count = std::min(count, static_cast<int>(longest.size()));
         std::partial_sort(longest.begin(), longest.begin() + count, longest.end(), [](const Edge &a, const Edge &b) {
@@ -141,12 +142,26 @@ private:
         if (_remesh.mesh.Constrained(s) || _remesh.place[a].kind == VertexKind::Free ||
             _remesh.place[b].kind == VertexKind::Free)
             return false;
-        const int near = _model.surface.mesh.triangle[_remesh.place[a].face].v[0];
-        const double room = MostCrowded * _model.density.spacing[near];
-        return SquaredNorm(_remesh.position[a] - _remesh.position[b]) < room * room;
+        return SquaredLength(s) < MostCrowded * MostCrowded;
     }
 
-    // How many vertices each curve would have too many with all of its edges halved: those of short ones would lie much
+    // Of an edge, in spacings.
+    double SquaredLength(Side s) const
+    {
+        const int a = _remesh.mesh.Tail(s), b = _remesh.mesh.Head(s);
+        const double h = 0.5 * (SpacingNear(a) + SpacingNear(b));
+        return SquaredNorm(_remesh.position[a] - _remesh.position[b]) / (h * h);
+    }
+
+    double SpacingNear(int v) const
+    {
+        double sum = 0;
+        for (const int corner : _model.surface.mesh.triangle[_remesh.place[v].face].v)
+            sum += _model.density.spacing[corner];
+        return sum / 3;
+    }
+
+    // How many vertices each curve would have too many with all of its edges halved: on short ones they would lie much
     // closer together than wanted.
     std::vector<int> SpareOnCurves() const
     {
@@ -262,16 +277,19 @@ private:
 
     void PutOnSurface(std::size_t v, Side s, const Point &p)
     {
-        // A vertex of a curve is known by a face on one side of it: the faces of all vertices around are tried.
+        // A vertex of a feature is known by a face on one side of it: those on all sides are tried.
         const Triangulation &m = _remesh.mesh;
         const ReferenceSurface &surface = _model.surface;
         Foot best;
+        best.point = p;
         int face = -1;
         const auto from = [&](int w) {
-            const auto [f, foot] = surface.Project(_remesh.place[w].face, _remesh.position[w], p);
-            if (face < 0 || foot.squaredDistance < best.squaredDistance) {
-                face = f;
-                best = foot;
+            for (const int start : ReferenceFacesAt(_model, _remesh, w)) {
+                const auto [f, foot] = surface.Project(start, _remesh.position[w], p);
+                if (face < 0 || foot.squaredDistance < best.squaredDistance) {
+                    face = f;
+                    best = foot;
+                }
             }
         };
         const int a = m.Tail(s), b = m.Head(s);

@@ -25,9 +25,9 @@ struct SampleSet {
     std::vector<SurfacePoint> onFaces;
 };
 
-/// Fewest segments that keep the shape and the type of a curve: three for a closed one, and for one
-/// that ends where it starts, four if they are to be `halved`, as three can slide together; two where it is far from
-/// straight or `twin` (another curve joins the same corners), else one.
+/// Fewest segments that keep the shape and the type of a curve. One that is closed, or ends where it starts, has three,
+/// or four if they are to be `halved`, as three can slide together; one that is far from straight, or `twin` (another
+/// curve joins the same corners), has two, any other one.
 inline int FewestSegments(const FeatureCurve &c, const std::vector<Point> &position, bool twin, bool halved = false)
 {
     if (c.vertex.front() == c.vertex.back())
