@@ -75,20 +75,26 @@ public:
             double length;
             int tail, head;
         };
-        const Triangulation &m = _remesh.mesh;
-        std::vector<Edge> longest;
-        VisitEdges([&](Side s) {
-            const int tail = m.Tail(s), head = m.Head(s);
-            if (!m.Constrained(s))
-                longest.push_back({SquaredLength(s), tail, head});
-        });
-        count = std::min(count, static_cast<int>(longest.size()));
-        std::partial_sort(longest.begin(), longest.begin() + count, longest.end(), [](const Edge &a, const Edge &b) {
+        const auto longer = [](const Edge &a, const Edge &b) {
             return std::tie(b.length, a.tail, a.head) < std::tie(a.length, b.tail, b.head);
+        };
+        // A heap of the longest so far, the shortest of them on top.
+        std::vector<Edge> longest;
+        const Triangulation &m = _remesh.mesh;
+        VisitEdges([&](Side s) {
+            if (m.Constrained(s))
+                return;
+            longest.push_back({SquaredLength(s), m.Tail(s), m.Head(s)});
+            std::push_heap(longest.begin(), longest.end(), longer);
+            if (static_cast<int>(longest.size()) > count) {
+                std::pop_heap(longest.begin(), longest.end(), longer);
+                longest.pop_back();
+            }
         });
+        std::sort_heap(longest.begin(), longest.end(), longer);
         Workers alone(1);
-        for (int i = 0; i < count; ++i) {
-            const Side s = m.FindEdge(longest[i].tail, longest[i].head);
+        for (const Edge &edge : longest) {
+            const Side s = m.FindEdge(edge.tail, edge.head);
             AddMiddles({s}, alone);
             _remesh.mesh.SplitEdge(s, _remesh.VertexCount() - 1);
         }
