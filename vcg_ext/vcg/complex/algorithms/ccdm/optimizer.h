@@ -73,8 +73,7 @@ public:
             [&] { polish.RaiseAngles(30, 0.3, 20); },
             [&] { polish.RaiseAngles(30, 1.0, 20); },
             [&] {
-                if (_remesh.VertexCount() <= MostToTransplantIn &&
-                    Transplant(_model, _remesh).Run(target, MostTransplants))
+                if (Transplant(_model, _remesh).Run(target, MostTransplants))
                     _schedule.Changed();
             },
             // What else can be captured without an angle below the target.
@@ -293,8 +292,6 @@ private:
     static constexpr int ApproximationRounds = 4;
     static constexpr int ChordRounds = 10;
     static constexpr int MostTransplants = 8;
-    /// They keep a copy of the mesh to go back to, which would set the peak of the memory above so many vertices.
-    static constexpr int MostToTransplantIn = 500000;
 };
 
 } // namespace ccdm
