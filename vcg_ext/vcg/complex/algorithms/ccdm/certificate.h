@@ -40,21 +40,18 @@ public:
             double least = 180;
             std::vector<std::pair<int, double>> below; // triangles and their angles
         };
-        std::vector<Found> found(Chunks::Count(_remesh.mesh.TriangleCount()));
-        Chunks::For(workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int chunk) {
-            Found own;
+        const auto look = [&](int first, int last, Found &found) {
             for (int t = first; t < last; ++t) {
                 const double angle = Smallest(t);
-                own.least = std::min(own.least, angle * 180 / Pi);
+                found.least = std::min(found.least, angle * 180 / Pi);
                 if (!(angle >= _target - Slack))
-                    own.below.emplace_back(t, angle);
+                    found.below.emplace_back(t, angle);
             }
-            found[chunk] = std::move(own);
-        });
+        };
         AngleCertificate result;
         result.target = _target * 180 / Pi;
         result.reached = 180;
-        for (const Found &f : found) {
+        for (const Found &f : Chunks::Collect<Found>(workers, _remesh.mesh.TriangleCount(), look)) {
             result.reached = std::min(result.reached, f.least);
             for (const auto &[t, angle] : f.below) {
                 const Point c = Centroid(t);

@@ -107,15 +107,13 @@ private:
             }
         };
         std::vector<Mean> mean(_mesh.VertexCount()), last;
-        for (int t = 0; t < _mesh.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (_mesh.Mate(s) <= s || _mesh.Constrained(s))
-                    continue;
-                const double turn = Turn(s);
-                mean[_mesh.Tail(s)].Add(turn, 1);
-                mean[_mesh.Head(s)].Add(turn, 1);
-            }
+        _mesh.VisitEdges([&](Side s) {
+            if (_mesh.Mate(s) == NoSide || _mesh.Constrained(s))
+                return;
+            const double turn = Turn(s);
+            mean[_mesh.Tail(s)].Add(turn, 1);
+            mean[_mesh.Head(s)].Add(turn, 1);
+        });
         for (int round = 0; round < RoughnessRounds; ++round) {
             last = mean;
             for (const Triangle &T : _mesh.triangle)
@@ -135,12 +133,10 @@ private:
     std::vector<Side> UnmarkedCreases() const
     {
         std::vector<Side> crease;
-        for (int t = 0; t < _mesh.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (_mesh.Constrained(s) && _mesh.Mate(s) > s && !Marked(s) && !Marked(_mesh.Mate(s)))
-                    crease.push_back(s);
-            }
+        _mesh.VisitEdges([&](Side s) {
+            if (_mesh.Constrained(s) && _mesh.Mate(s) != NoSide && !Marked(s) && !Marked(_mesh.Mate(s)))
+                crease.push_back(s);
+        });
         return crease;
     }
 

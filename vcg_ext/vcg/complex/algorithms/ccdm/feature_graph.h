@@ -21,6 +21,8 @@ struct FeatureCurve {
 
     int Segments() const { return static_cast<int>(side.size()); }
     double Length() const { return arc.back(); }
+    /// Whether it runs along the boundary of the reference surface, with that mesh.
+    bool OnBoundary(const Triangulation &mesh) const { return mesh.Mate(side.front()) == NoSide; }
     /// Segment that holds arc length s, searched from a hint.
     int SegmentAt(double s, int hint = 0) const
     {
@@ -210,12 +212,10 @@ private:
     template <class Visit>
     void VisitFeatureEdges(Visit visit) const
     {
-        for (int t = 0; t < _mesh.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (_mesh.Constrained(s) && (_mesh.Mate(s) == NoSide || s < _mesh.Mate(s)))
-                    visit(s);
-            }
+        _mesh.VisitEdges([&](Side s) {
+            if (_mesh.Constrained(s))
+                visit(s);
+        });
     }
 
     void CollectSpokes()
@@ -335,7 +335,7 @@ private:
         });
         // First between junctions only; then the sharp turns of those runs become corners too.
         for (const FeatureCurve &c : CollectCurves())
-            if (_rules.turnsOfBoundaries || _mesh.Mate(c.side.front()) != NoSide)
+            if (_rules.turnsOfBoundaries || !c.OnBoundary(_mesh))
                 FindTurns(c);
         _graph.curve = CollectCurves();
         for (int v = 0; v < _mesh.VertexCount(); ++v)

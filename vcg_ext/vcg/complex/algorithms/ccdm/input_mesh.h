@@ -260,20 +260,20 @@ private:
             other[fill[f[0]]++] = high;
             other[fill[low]++] = high;
         }
-        std::vector<std::array<int, 2>> found(Chunks::Count(static_cast<int>(vertices)), {0, 0});
-        Chunks::For(workers, static_cast<int>(vertices), [&](int first, int last, int chunk) {
-            std::vector<std::pair<int, int>> opposite;
+        struct Found {
             int duplicates = 0, edges = 0;
+        };
+        const auto look = [&](int first, int last, Found &found) {
+            std::vector<std::pair<int, int>> opposite;
             for (int v = first; v < last; ++v) {
-                duplicates += CountRepeatedFaces(startFace[v], startFace[v + 1], opposite);
+                found.duplicates += CountRepeatedFaces(startFace[v], startFace[v + 1], opposite);
                 std::sort(other.begin() + start[v], other.begin() + start[v + 1]);
-                edges += CountRunsOverTwo(other, start[v], start[v + 1]);
+                found.edges += CountRunsOverTwo(other, start[v], start[v + 1]);
             }
-            found[chunk] = {duplicates, edges};
-        });
-        for (const auto &[duplicates, edges] : found) {
-            defects.duplicateFaces += duplicates;
-            defects.nonManifoldEdges += edges;
+        };
+        for (const Found &found : Chunks::Collect<Found>(workers, static_cast<int>(vertices), look)) {
+            defects.duplicateFaces += found.duplicates;
+            defects.nonManifoldEdges += found.edges;
         }
         if (defects.nonManifoldEdges > 0)
             return Refuse(Counted(defects.nonManifoldEdges, "edge has", "edges have") + " more than two faces" +
@@ -354,18 +354,15 @@ private:
         for (const auto &f : mesh.face)
             for (const int v : f)
                 ++corners[v];
-        std::vector<std::vector<int>> found(Chunks::Count(vertices));
-        Chunks::For(workers, vertices, [&](int first, int last, int chunk) {
-            Star star;
-            for (int v = first; v < last; ++v) {
-                tables.GatherStar(v, star);
-                if (star.Triangles() != corners[v])
-                    found[chunk].push_back(original[v]);
-            }
-        });
-        std::vector<int> joints;
-        for (const std::vector<int> &some : found)
-            joints.insert(joints.end(), some.begin(), some.end());
+        const auto joints =
+            Chunks::CollectList<int>(workers, vertices, [&](int first, int last, std::vector<int> &found) {
+                Star star;
+                for (int v = first; v < last; ++v) {
+                    tables.GatherStar(v, star);
+                    if (star.Triangles() != corners[v])
+                        found.push_back(original[v]);
+                }
+            });
         defects.nonManifoldVertices = static_cast<int>(joints.size());
         if (!joints.empty())
             return Refuse(Counted(defects.nonManifoldVertices, "vertex joins", "vertices join") +

@@ -123,7 +123,8 @@ private:
 };
 
 /// A thing of their own for each of the workers, far enough apart that no two lie on one cache line: the writes of one
-/// would slow down the others. Measured: at a million vertices that took a third of the processor time of two threads.
+/// would slow down the others. Measured: at a million vertices that took a quarter of the processor time of two
+/// threads.
 template <class T>
 class PerWorker
 {
@@ -153,6 +154,30 @@ struct Chunks {
     static void For(Workers &workers, int count, Visit visit)
     {
         workers.For(Count(count), [&](int c, int) { visit(c * Size, std::min(count, (c + 1) * Size), c); });
+    }
+
+    /// What visit(first, last, part) makes of each of these runs, in order. Each thread fills a part of its own, so
+    /// that none writes to the cache lines of another.
+    template <class Part, class Visit>
+    static std::vector<Part> Collect(Workers &workers, int count, const Visit &visit)
+    {
+        std::vector<Part> parts(static_cast<std::size_t>(Count(count)));
+        For(workers, count, [&](int first, int last, int c) {
+            Part own{};
+            visit(first, last, own);
+            parts[c] = std::move(own);
+        });
+        return parts;
+    }
+
+    /// The same, where the parts are lists, as one list.
+    template <class Item, class Visit>
+    static std::vector<Item> CollectList(Workers &workers, int count, const Visit &visit)
+    {
+        std::vector<Item> all;
+        for (const std::vector<Item> &part : Collect<std::vector<Item>>(workers, count, visit))
+            all.insert(all.end(), part.begin(), part.end());
+        return all;
     }
 };
 

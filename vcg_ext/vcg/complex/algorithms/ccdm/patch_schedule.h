@@ -159,9 +159,7 @@ private:
         });
         const std::vector<Triangle> &triangle = _remesh.mesh.triangle;
         const int triangles = _remesh.mesh.TriangleCount();
-        std::vector<std::vector<Pair>> touching(Chunks::Count(triangles));
-        Chunks::For(_workers, triangles, [&](int first, int last, int chunk) {
-            std::vector<Pair> &pairs = touching[chunk];
+        const auto look = [&](int first, int last, std::vector<Pair> &pairs) {
             for (int t = first; t < last; ++t)
                 for (int e = 0; e < 3; ++e) {
                     const int v = triangle[t].v[e], w = triangle[t].v[Next(e)];
@@ -172,11 +170,10 @@ private:
                     _border[w].store(1, std::memory_order_relaxed);
                     pairs.emplace_back(std::min(p, q), std::max(p, q));
                 }
-        });
+        };
         _touching.clear();
-        for (const std::vector<Pair> &pairs : touching)
-            for (const Pair &pair : pairs)
-                ++_touching[pair];
+        for (const Pair &pair : Chunks::CollectList<Pair>(_workers, triangles, look))
+            ++_touching[pair];
         Separate();
         _valid = true;
     }

@@ -129,20 +129,18 @@ private:
         for (std::size_t v = 0; v < x.size(); ++v)
             if (!onFeature[v] && m.incident[v] >= 0)
                 _probe.push_back({x[v], m.incident[v], static_cast<int>(v)});
-        for (int t = 0; t < m.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e), mate = m.Mate(s);
-                if (mate < s || m.Constrained(s))
-                    continue;
-                const int a = m.Tail(s), b = m.Head(s);
-                const double h = 0.5 * _model.density.spacing[a], length = Norm(x[b] - x[a]);
-                if (length <= h || TurnAngle(x[a], x[b], x[m.Opposite(s)], x[m.Opposite(mate)]) < 0.3)
-                    continue;
-                const int parts = static_cast<int>(std::min(length / h, 1000.0)) + 1;
-                for (int k = 1; k < parts; ++k)
-                    _probe.push_back(
-                        {x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), t, 2 * k < parts ? a : b});
-            }
+        m.VisitEdges([&](Side s) {
+            if (m.Mate(s) == NoSide || m.Constrained(s))
+                return;
+            const int a = m.Tail(s), b = m.Head(s);
+            const double h = 0.5 * _model.density.spacing[a], length = Norm(x[b] - x[a]);
+            if (length <= h || TurnAngle(x[a], x[b], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]) < 0.3)
+                return;
+            const int parts = static_cast<int>(std::min(length / h, 1000.0)) + 1;
+            for (int k = 1; k < parts; ++k)
+                _probe.push_back(
+                    {x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), SideTriangle(s), 2 * k < parts ? a : b});
+        });
     }
 
     // A vertex of the remesh close to each vertex of the input, spread along the input's edges.

@@ -67,13 +67,12 @@ public:
                 p.sameVertex[v] = SameVertex(v);
             }
         });
-        std::vector<std::vector<Provenance::SideCorner>> found(Chunks::Count(triangles));
-        Chunks::For(workers, triangles, [&](int first, int last, int chunk) {
-            for (int t = first; t < last; ++t)
-                p.face[t] = _prepared.originalFace[Under(t, found[chunk])];
-        });
-        for (const auto &some : found)
-            p.onSides.insert(p.onSides.end(), some.begin(), some.end());
+        using SideCorner = Provenance::SideCorner;
+        p.onSides = Chunks::CollectList<SideCorner>(workers, triangles,
+                                                    [&](int first, int last, std::vector<SideCorner> &found) {
+                                                        for (int t = first; t < last; ++t)
+                                                            p.face[t] = _prepared.originalFace[Under(t, found)];
+                                                    });
         return p;
     }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ public:
         std::vector<std::array<int, 3>> middle(m.triangle.size());
         std::vector<Side> split;
         std::vector<int> crowded;
-        VisitEdges([&](Side s) {
+        m.VisitEdges([&](Side s) {
             const int v = before + static_cast<int>(split.size());
             for (const Side side : {s, m.Mate(s)})
                 if (side != NoSide)
@@ -60,7 +61,7 @@ public:
     int CountAfter() const
     {
         int count = _remesh.VertexCount();
-        VisitEdges([&](Side s) { count += Crowded(s) ? 0 : 1; });
+        _remesh.mesh.VisitEdges([&](Side s) { count += Crowded(s) ? 0 : 1; });
         for (const int spare : SpareOnCurves())
             count -= spare;
         return count;
@@ -81,7 +82,7 @@ public:
         // A heap of the longest so far, the shortest of them on top.
         std::vector<Edge> longest;
         const Triangulation &m = _remesh.mesh;
-        VisitEdges([&](Side s) {
+        m.VisitEdges([&](Side s) {
             if (m.Constrained(s))
                 return;
             longest.push_back({SquaredLength(s), m.Tail(s), m.Head(s)});
@@ -127,19 +128,6 @@ private:
 
     const Model &_model;
     Remesh &_remesh;
-
-    // Calls visit(side) once for every edge.
-    template <class Visit>
-    void VisitEdges(const Visit &visit) const
-    {
-        const Triangulation &m = _remesh.mesh;
-        for (int t = 0; t < m.TriangleCount(); ++t)
-            for (int e = 0; e < 3; ++e) {
-                const Side s = MakeSide(t, e);
-                if (m.Mate(s) == NoSide || m.Mate(s) > s)
-                    visit(s);
-            }
-    }
 
     // An edge between features, that is none itself, with no room for a vertex in its middle.
     bool Crowded(Side s) const
@@ -286,33 +274,28 @@ private:
         // A vertex of a feature is known by a face on one side of it: those on all sides are tried.
         const Triangulation &m = _remesh.mesh;
         const ReferenceSurface &surface = _model.surface;
-        Foot best;
-        best.point = p;
-        int face = -1;
-        const auto from = [&](int w) {
-            for (const int start : ReferenceFacesAt(_model, _remesh, w)) {
-                const auto [f, foot] = surface.Project(start, _remesh.position[w], p);
-                if (face < 0 || foot.squaredDistance < best.squaredDistance) {
-                    face = f;
-                    best = foot;
-                }
-            }
+        std::optional<std::pair<int, Foot>> nearest;
+        const auto from = [&](int w, int start) {
+            const auto found = surface.Project(start, _remesh.position[w], p);
+            if (!nearest || found.second.squaredDistance < nearest->second.squaredDistance)
+                nearest = found;
         };
         const int a = m.Tail(s), b = m.Head(s);
-        if (_remesh.place[a].kind == VertexKind::Free)
-            from(a);
-        if (_remesh.place[b].kind == VertexKind::Free)
-            from(b);
-        if (face < 0)
+        for (const int w : {a, b})
+            if (_remesh.place[w].kind == VertexKind::Free)
+                from(w, _remesh.place[w].face);
+        if (!nearest)
             for (const int w : {a, b, m.Opposite(s), m.Opposite(m.Mate(s))})
-                from(w);
+                for (const int start : ReferenceFacesAt(_model, _remesh, w))
+                    from(w, start);
+        const auto &[face, foot] = *nearest;
         Place place;
         place.face = face;
         const Triangle &T = surface.mesh.triangle[face];
         double rho = 0;
         for (int k = 0; k < 3; ++k)
-            rho += best.weight[k] * _model.density.rho[T.v[k]];
-        _remesh.position[v] = best.point;
+            rho += foot.weight[k] * _model.density.rho[T.v[k]];
+        _remesh.position[v] = foot.point;
         _remesh.place[v] = place;
         _remesh.rho[v] = rho;
     }

@@ -436,21 +436,17 @@ private:
 /// the squared edge lengths, the density being constant on each triangle.
 inline double Energy(const Remesh &r, Workers &workers)
 {
-    const int count = r.mesh.TriangleCount();
-    std::vector<double> part(Chunks::Count(count), 0);
-    Chunks::For(workers, count, [&](int first, int last, int chunk) {
-        double sum = 0;
+    const auto add = [&](int first, int last, double &sum) {
         for (int t = first; t < last; ++t) {
             const Triangle &T = r.mesh.triangle[t];
             const Point &a = r.position[T.v[0]], &b = r.position[T.v[1]], &c = r.position[T.v[2]];
             const double rho = (r.rho[T.v[0]] + r.rho[T.v[1]] + r.rho[T.v[2]]) / 3;
             sum += rho * Norm(Cross(b - a, c - a)) / 2 * (SquaredNorm(b - a) + SquaredNorm(c - b) + SquaredNorm(a - c));
         }
-        part[chunk] = sum;
-    });
+    };
     double sum = 0;
-    for (const double p : part)
-        sum += p;
+    for (const double part : Chunks::Collect<double>(workers, r.mesh.TriangleCount(), add))
+        sum += part;
     return sum * 5 / 12;
 }
 

@@ -63,19 +63,15 @@ private:
     static std::vector<Side> FoldedEdges(const Remesh &remesh, Workers &workers)
     {
         const Triangulation &m = remesh.mesh;
-        std::vector<std::vector<Side>> found(Chunks::Count(m.TriangleCount()));
-        Chunks::For(workers, m.TriangleCount(), [&](int first, int last, int chunk) {
-            for (int t = first; t < last; ++t)
-                for (int e = 0; e < 3; ++e) {
-                    const Side s = MakeSide(t, e);
-                    if (m.Mate(s) >= s && Turn(m, remesh.position, s) > FoldTurn)
-                        found[chunk].push_back(s);
-                }
-        });
-        std::vector<Side> all;
-        for (const std::vector<Side> &sides : found)
-            all.insert(all.end(), sides.begin(), sides.end());
-        return all;
+        return Chunks::CollectList<Side>(workers, m.TriangleCount(),
+                                         [&](int first, int last, std::vector<Side> &found) {
+                                             for (int t = first; t < last; ++t)
+                                                 for (int e = 0; e < 3; ++e) {
+                                                     const Side s = MakeSide(t, e);
+                                                     if (m.Mate(s) >= s && Turn(m, remesh.position, s) > FoldTurn)
+                                                         found.push_back(s);
+                                                 }
+                                         });
     }
 
     // Whether the input's normals within `reach` of p differ by more than 75 degrees.

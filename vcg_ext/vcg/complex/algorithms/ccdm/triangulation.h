@@ -218,6 +218,18 @@ public:
         }
     }
 
+    /// Calls visit(side) once for every edge, with the side of the lower number.
+    template <class Visit>
+    void VisitEdges(const Visit &visit) const
+    {
+        for (int t = 0; t < TriangleCount(); ++t)
+            for (int e = 0; e < 3; ++e) {
+                const Side s = MakeSide(t, e);
+                if (Mate(s) == NoSide || s < Mate(s))
+                    visit(s);
+            }
+    }
+
     /// From now on until the next change other than a flip, rings that are given to KeepRing are known for
     /// as long as no flip changes them. A sweep over known rings reads no triangles.
     void KeepRings() { _ring.assign(incident.size(), {-1}); }

@@ -55,15 +55,12 @@ private:
     template <class Check>
     Part Sum(int count, const Check &check)
     {
-        std::vector<Part> part(Chunks::Count(count));
-        Chunks::For(_workers, count, [&](int first, int last, int chunk) {
-            Part own;
-            for (int k = first; k < last && check(k, own);)
+        const auto look = [&](int first, int last, Part &part) {
+            for (int k = first; k < last && check(k, part);)
                 ++k;
-            part[chunk] = own;
-        });
+        };
         Part sum;
-        for (const Part &p : part) {
+        for (const Part &p : Chunks::Collect<Part>(_workers, count, look)) {
             sum.live += p.live;
             sum.boundarySides += p.boundarySides;
             if (p.fault != nullptr)
