@@ -121,7 +121,7 @@ void RunGlobal(const Model &model, Remesh &remesh, const Params &params, Workers
     OptimizeLocally(model, begin, params.localIterations, workers, [] {});
     curve.Add(begin);
     Report report;
-    Optimizer(model, params, remesh, report, workers).Run({}, [&](double) {
+    Optimizer(model, params, remesh, report, workers).Run(0, [&](double) {
         curve.Add(remesh);
         return true;
     });

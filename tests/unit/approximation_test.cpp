@@ -63,7 +63,7 @@ Remesh Coarse(const Model &model, double approximation, unsigned seed = 1)
     samples.onFaces = SampleFaces(model.surface, model.density, params.vertexCount, random);
     Remesh r;
     EXPECT_TRUE(InitialMeshBuilder(model, samples).Build(r, [](double) { return true; }));
-    EXPECT_TRUE(Optimizer(model, params, r, report, meshes::Alone()).Run({}, [](double) { return true; }));
+    EXPECT_TRUE(Optimizer(model, params, r, report, meshes::Alone()).Run(0, [](double) { return true; }));
     return r;
 }
 

@@ -120,7 +120,7 @@ TEST(AddedRule, GoesThroughTheOptimisersSteps)
         params.globalIterations = 0;
         Report report;
         Optimizer optimizer(s.model, params, s.remesh, report, workers);
-        EXPECT_TRUE(optimizer.Run({}, [](double) { return true; }));
+        EXPECT_TRUE(optimizer.Run(0, [](double) { return true; }));
         EXPECT_TRUE(optimizer.Close([](double) { return true; }));
         ExpectSound(s, n);
         EXPECT_GT(AverageSmallestAngle(s.remesh), before + 10);
@@ -154,7 +154,7 @@ TEST(AddedSampler, StartsARunOfTheOptimiser)
         const Params params = meshes::Quick(n);
         Report report;
         Optimizer optimizer(s.model, params, s.remesh, report, meshes::Alone());
-        EXPECT_TRUE(optimizer.Run({}, [](double) { return true; }));
+        EXPECT_TRUE(optimizer.Run(0, [](double) { return true; }));
         EXPECT_TRUE(optimizer.Close([](double) { return true; }));
         ExpectSound(s, n);
         EXPECT_GT(AverageSmallestAngle(s.remesh), 54);

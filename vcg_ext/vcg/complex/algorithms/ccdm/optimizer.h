@@ -32,9 +32,9 @@ public:
     {
     }
 
-    /// Runs the optimiser that the parameters name. `finer` are the vertex counts of the levels to come: the
-    /// accelerated optimiser refines the mesh to each in turn. False when `progress` stopped it.
-    bool Run(const std::vector<int> &finer, const Progress &progress)
+    /// Runs the optimiser that the parameters name. `finer`: the vertices to which the accelerated one is to refine the
+    /// mesh; 0: it is not to. False when `progress` stopped it.
+    bool Run(int finer, const Progress &progress)
     {
         _remesh.mesh.KeepRings();
         switch (_params.optimizer) {
@@ -184,35 +184,27 @@ private:
         return true;
     }
 
-    // Twice the budget for the coarsest level, where a sweep is cheap; a part of it for each that is
-    // refined from it.
-    bool AccelerateByLevels(const std::vector<int> &finer, const Progress &progress)
+    // Twice the budget for the coarse level, where a sweep is cheap; a part of it for what is refined from it.
+    bool AccelerateByLevels(int finer, const Progress &progress)
     {
         const int count = GlobalIterations(_params) * _params.localIterations;
-        const int first = finer.empty() ? count : static_cast<int>(std::lround(CoarseShare * count));
-        const int fine = static_cast<int>(std::lround(FineShare * count));
-        if (!finer.empty())
-            MeetFiner(finer.front());
+        if (finer == 0)
+            return Accelerate(count, 0.5 * _params.lambda, 0, 0.9, progress) && Settle(progress);
+        const int first = static_cast<int>(std::lround(CoarseShare * count));
+        const int second = static_cast<int>(std::lround(FineShare * count));
+        MeetFiner(finer);
         // The work of a sweep is in proportion to the vertices.
-        double work = static_cast<double>(first) * _remesh.VertexCount(), done = 0;
-        for (const int vertices : finer)
-            work += static_cast<double>(fine) * vertices;
-        double share = static_cast<double>(first) * _remesh.VertexCount() / work;
+        const double coarseWork = static_cast<double>(first) * _remesh.VertexCount();
+        const double share = coarseWork / (coarseWork + static_cast<double>(second) * finer);
         if (!Accelerate(first, 0.5 * _params.lambda, 0, 0.9 * share, progress))
             return false;
-        for (std::size_t k = 0; k < finer.size(); ++k) {
-            Polish(_model, _remesh).Unfold(10);
-            Refinement refinement(_model, _remesh);
-            refinement.Run(_workers, finer[k]);
-            refinement.SplitLongest(finer[k] - _remesh.VertexCount());
-            Polish(_model, _remesh).Unfold(10);
-            Rearrange(refinement);
-            done = share;
-            share += static_cast<double>(fine) * finer[k] / work;
-            if (!Accelerate(fine, FineNoise * _params.lambda, 0.9 * done, 0.9 * share, progress))
-                return false;
-        }
-        return Settle(progress);
+        Polish(_model, _remesh).Unfold(10);
+        Refinement refinement(_model, _remesh);
+        refinement.Run(_workers, finer);
+        refinement.SplitLongest(finer - _remesh.VertexCount());
+        Polish(_model, _remesh).Unfold(10);
+        Rearrange(refinement);
+        return Accelerate(second, FineNoise * _params.lambda, 0.9 * share, 0.9, progress) && Settle(progress);
     }
 
     // Adds what the coarse mesh lacks to become one of so many vertices when it is refined: between features that are

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/certificate.h>
+#include <vcg/complex/algorithms/ccdm/coarse_level.h>
 #include <vcg/complex/algorithms/ccdm/edge_length.h>
 #include <vcg/complex/algorithms/ccdm/false_creases.h>
 #include <vcg/complex/algorithms/ccdm/front_sampler.h>
@@ -103,13 +104,15 @@ private:
     {
         Params params = _params;
         TakeEnoughForComponents(model, params);
-        int levels = params.optimizer == OptimizerKind::Accelerated ? Levels(model, params.vertexCount) : 0;
+        const CoarseLevel level(model);
+        bool coarse = params.optimizer == OptimizerKind::Accelerated && level.Serves(params.vertexCount);
         for (int growths = 0;;) {
-            bool passed = Attempt(model, params, levels, remesh);
+            bool passed = Attempt(model, params, coarse, remesh);
             // What is too many at the coarse level is four times that once it is quartered, and may be there to stay.
-            if (passed && levels > 0 && remesh.VertexCount() > params.vertexCount)
+            if (passed && coarse && remesh.VertexCount() > params.vertexCount)
                 passed = Fail(Status::CheckFailed, "the coarse level has too many vertices");
-            if (passed && levels > 0 && MayLackParts(model, params, remesh) && !SecondAttempt(model, params, remesh))
+            if (passed && coarse && level.MayLackParts(remesh, MinAngle(params)) &&
+                !SecondAttempt(model, params, remesh))
                 return false;
             if (passed) {
                 Offset(model, remesh);
@@ -121,8 +124,8 @@ private:
                 return false;
             const int got = remesh.VertexCount();
             remesh = Remesh();
-            if (levels > 0) {
-                levels = 0;
+            if (coarse) {
+                coarse = false;
             } else if (params.optimizer != OptimizerKind::Annealing) {
                 _report.warnings.push_back("annealed with random samples, as another attempt failed: " +
                                            _report.message);
@@ -165,8 +168,8 @@ private:
     {
         Report report = _report;
         Remesh other;
-        const bool passed = Attempt(model, params, 0, other);
-        if (passed && SmallestFreeAngle(other) > SmallestFreeAngle(remesh)) {
+        const bool passed = Attempt(model, params, false, other);
+        if (passed && CoarseLevel::SmallestFreeAngle(other) > CoarseLevel::SmallestFreeAngle(remesh)) {
             remesh = std::move(other);
             return true;
         }
@@ -178,43 +181,13 @@ private:
         return Fail(status, report.message);
     }
 
-    // Whether an angle is smaller than the coarse level should leave. Next to creases that are close together the
-    // target is often out of reach, with and without that level.
-    static bool MayLackParts(const Model &model, const Params &params, const Remesh &remesh)
-    {
-        const double target = MinAngle(params) - AngleSlack;
-        const bool creases = std::any_of(model.features.curve.begin(), model.features.curve.end(),
-                                         [&](const FeatureCurve &c) { return !IsBoundary(model, c); });
-        return SmallestFreeAngle(remesh) < (creases ? std::min(target, AngleAtCreases) : target);
-    }
-
-    static bool IsBoundary(const Model &model, const FeatureCurve &c)
-    {
-        return model.surface.mesh.Mate(c.side.front()) == NoSide;
-    }
-
-    // In degrees, of the triangles that no feature touches.
-    static double SmallestFreeAngle(const Remesh &remesh)
-    {
-        double least = Pi;
-        for (const Triangle &T : remesh.mesh.triangle) {
-            bool free = true;
-            for (const int v : T.v)
-                free = free && remesh.place[v].kind == VertexKind::Free;
-            if (free)
-                least = std::min(
-                    least, SmallestAngle(remesh.position[T.v[0]], remesh.position[T.v[1]], remesh.position[T.v[2]]));
-        }
-        return least * 180 / Pi;
-    }
-
-    // Samples, builds, optimises and checks. False when it was cancelled or the check failed.
-    bool Attempt(Model &model, const Params &params, int levels, Remesh &remesh)
+    // Samples, builds, optimises and checks; `coarse`: a coarse level first. False when it was cancelled or the check
+    // failed.
+    bool Attempt(Model &model, const Params &params, bool coarse, Remesh &remesh)
     {
         if (!Begin("sampling", 6, 8))
             return false;
-        std::vector<int> finer;
-        const SampleSet samples = Sample(model, params, levels, finer);
+        const SampleSet samples = Sample(model, params, coarse);
 
         if (!Begin("building the initial mesh", 8, 20))
             return false;
@@ -225,7 +198,7 @@ private:
             return false;
         _report.flipsBounded = false;
         Optimizer optimizer(model, params, remesh, _report, _workers);
-        if (!optimizer.Run(finer, [this](double x) { return Advance(x); }))
+        if (!optimizer.Run(coarse ? params.vertexCount : 0, [this](double x) { return Advance(x); }))
             return false;
 
         if (!Begin("polishing", 92, 97))
@@ -393,27 +366,22 @@ private:
         return true;
     }
 
-    // The samples of the coarsest level, and the vertex counts of those that are refined from it.
-    SampleSet Sample(Model &model, const Params &params, int levels, std::vector<int> &finer)
+    // The samples of the mesh that is built: the coarse level or the result's own.
+    SampleSet Sample(Model &model, const Params &params, bool coarse)
     {
-        const double scale = std::ldexp(1.0, levels);
+        const double scale = coarse ? 2 : 1;
         for (double &h : model.density.spacing)
             h *= scale;
         SampleSet samples;
         Random random(_params.seed);
         const int corners = static_cast<int>(model.features.corner.size());
         samples.onCurves =
-            SampleCurvesWithin(model.surface, model.features, model.density, params.vertexCount - corners, levels > 0);
+            SampleCurvesWithin(model.surface, model.features, model.density, params.vertexCount - corners, coarse);
         const int featureSamples = static_cast<int>(samples.onCurves.size()) + corners;
-        finer.clear();
-        int coarse = params.vertexCount;
-        int boundary = BoundarySegments(model, samples.onCurves);
-        for (int k = 0; k < levels; ++k) {
-            finer.insert(finer.begin(), coarse);
-            // Refined, V vertices become at most 4 V - 3 chi - B.
-            coarse = (coarse + 3 * _report.inputTopology.euler + (boundary << (levels - 1 - k))) / 4;
-        }
-        const int rest = std::max(0, coarse - featureSamples);
+        const int count =
+            coarse ? CoarseLevel(model).Vertices(params.vertexCount, _report.inputTopology.euler, samples.onCurves)
+                   : params.vertexCount;
+        const int rest = std::max(0, count - featureSamples);
         switch (params.sampler) {
         case SamplerKind::Random:
             samples.onFaces = SampleFaces(model.surface, model.density, rest, random);
@@ -427,36 +395,6 @@ private:
         for (double &h : model.density.spacing)
             h /= scale;
         return samples;
-    }
-
-    // How many times the resolution is halved before the mesh is built. Measured: two levels are hardly
-    // faster than one, and the few irregular vertices that come out then strain the mesh.
-    int Levels(const Model &model, int vertices) const
-    {
-        if (vertices / 4 < LeastCoarse)
-            return 0;
-        // Creases are better met at full resolution, unless they are a few in a surface that has none otherwise; and so
-        // are boundaries with more corners than the coarse level has edges for.
-        double creases = 0, crowded = 0;
-        for (const FeatureCurve &c : model.features.curve) {
-            if (c.locked)
-                return 0;
-            const double length = c.InSpacings(model.density.spacing);
-            (IsBoundary(model, c) ? crowded : creases) += IsBoundary(model, c) ? std::max(0.0, 1 - length / 2) : length;
-        }
-        return std::max(creases, crowded) <= MostOnFeatures * vertices ? 1 : 0;
-    }
-
-    // The number of boundary edges that the samples make.
-    static int BoundarySegments(const Model &model, const std::vector<CurveSample> &samples)
-    {
-        const std::vector<FeatureCurve> &curve = model.features.curve;
-        int count = 0;
-        for (const FeatureCurve &c : curve)
-            count += IsBoundary(model, c) && !c.closed;
-        for (const CurveSample &s : samples)
-            count += IsBoundary(model, curve[s.curve]);
-        return count;
     }
 
     // The vertices leave the surface if the parameters want that and nothing breaks.
@@ -582,14 +520,6 @@ private:
             _progress(100, "done"); // nothing is left to cancel
     }
 
-    static constexpr double AngleSlack = 0.05;   // degrees
-    static constexpr double AngleAtCreases = 30; // degrees
-    /// Length of the creases in spacings, and missing edges of boundaries, for each vertex up to which there is a
-    /// coarse level. Measured: on scans at 0.009 it raises the angles by 0.3 degrees; on CAD parts at 0.03 it does
-    /// nothing for them, at 0.04 it lowers them by 0.3.
-    static constexpr double MostOnFeatures = 0.01;
-    /// Fewest vertices of a mesh that is to be refined.
-    static constexpr int LeastCoarse = 1000;
     /// Counts below this for each component may be raised where fewer vertices cannot but fold.
     static constexpr int MostForGrowth = 200;
     static constexpr int MostGrowths = 8;
