@@ -2,6 +2,7 @@
 #include <vcg/complex/algorithms/ccdm/centroid_rules.h>
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -161,14 +162,15 @@ TEST(Relocator, TangentialStepsDoNotShrinkASphere)
     EXPECT_NEAR(area() / before, 1, 0.002);
 }
 
-TEST(Relocator, KnownRingsChangeNothing)
+// Sweeps and flips in turn, with rings that are kept and without: the same stars, so the same positions up to the order
+// of the sums. A ring that a flip has made stale would show at once. Returns the rings known at the end, by what they
+// hold: plain ones, ones with a wall, of curve vertices, and open ones.
+std::array<int, 4> CompareKnownRings(const Model &model)
 {
-    // Sweeps and flips in turn, with rings that are kept and without: the same stars, so the same positions up to
-    // the order of the sums. A ring that a flip has made stale would show at once.
-    const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
     Remesh walked = meshes::AsRemesh(model), known = walked;
     known.mesh.KeepRings();
     long long flips = 0;
+    std::array<int, 4> kinds{};
     for (int i = 0; i < 12; ++i) {
         for (Remesh *r : {&walked, &known}) {
             Relocator relocator(model, *r);
@@ -176,48 +178,86 @@ TEST(Relocator, KnownRingsChangeNothing)
             flips += DelaunayFlipper(meshes::Alone()).Run(*r);
             relocator.Sweep(CellCentroid{*r, true});
         }
+        kinds.fill(0);
         for (int v = 0; v < known.VertexCount(); ++v) {
             const Triangulation::Ring *ring = known.mesh.KnownRing(v);
             if (ring == nullptr)
                 continue;
             Star star;
             known.mesh.GatherStar(v, star);
-            const int count = static_cast<int>(std::find(ring->begin(), ring->end(), -1) - ring->begin());
-            ASSERT_EQ(count, star.Triangles());
-            EXPECT_TRUE(std::is_permutation(star.outer.begin(), star.outer.end(), ring->begin()));
+            std::vector<int> outer(ring->begin(), std::find(ring->begin(), ring->end(), -1));
+            int marks = 0;
+            for (int &o : outer) {
+                marks |= o;
+                o &= Triangulation::RingNumber;
+            }
+            EXPECT_EQ((marks & Triangulation::RingOpen) != 0, !star.closed);
+            EXPECT_EQ(outer.size(), star.outer.size());
+            EXPECT_TRUE(std::is_permutation(star.outer.begin(), star.outer.end(), outer.begin(), outer.end()));
+            EXPECT_EQ((marks & Triangulation::RingSpoke) != 0, known.place[v].kind == VertexKind::Curve);
+            kinds[0] += marks == (marks & Triangulation::RingNumber);
+            kinds[1] += (marks & Triangulation::RingWall) != 0;
+            kinds[2] += (marks & Triangulation::RingSpoke) != 0;
+            kinds[3] += (marks & Triangulation::RingOpen) != 0;
         }
     }
     EXPECT_GT(flips, 100);
     for (int v = 0; v < known.VertexCount(); ++v)
-        ASSERT_LT(Norm(known.position[v] - walked.position[v]), 1e-6);
+        EXPECT_LT(Norm(known.position[v] - walked.position[v]), 1e-6);
+    return kinds;
+}
+
+TEST(Relocator, KnownRingsChangeNothing)
+{
+    const auto smooth = CompareKnownRings(meshes::MakeModel(shapes::Bumpy(3), 642, 180));
+    EXPECT_GT(smooth[0], 600);
+    EXPECT_EQ(smooth[1] + smooth[2] + smooth[3], 0);
+
+    shapes::Shape box = shapes::Box(1, 1, 1);
+    for (int i = 0; i < 4; ++i)
+        box = shapes::Subdivide(box);
+    const auto creased = CompareKnownRings(meshes::MakeModel(box, static_cast<int>(box.points.size()), 40));
+    EXPECT_GT(creased[0], 600);
+    EXPECT_GT(creased[1], 100);
+    EXPECT_GT(creased[2], 100);
+    EXPECT_EQ(creased[3], 0);
+
+    const auto open = CompareKnownRings(meshes::MakeModel(shapes::FlatGrid(24), 625, 40));
+    EXPECT_GT(open[0], 300);
+    EXPECT_GT(open[3], 80);
+    EXPECT_EQ(open[3], open[2]);
 }
 
 TEST(Relocator, AscendFollowsTheGradientAndRaisesTheScore)
 {
     const Model model = meshes::MakeModel(shapes::FlatGrid(8), 81, 180);
-    Remesh r = meshes::AsRemesh(model);
+    const Remesh r = meshes::AsRemesh(model);
     const Point target(0.45, 0.53, 0);
     int v = 0;
     while (r.place[v].kind != VertexKind::Free || Norm(r.position[v] - target) > 0.13)
         ++v;
     const double before = Norm(r.position[v] - target);
     const Point start = r.position[v];
-    Relocator relocator(model, r);
     const auto nearness = [&](const LocalStar &, const Point &q, Point *gradient) {
         const Point d = target - start - q;
         if (gradient != nullptr)
             *gradient += d;
         return -Norm(d);
     };
-    EXPECT_TRUE(relocator.Ascend(v, 0.2, nearness));
-    EXPECT_LT(Norm(r.position[v] - target), before);
-    EXPECT_GT(Dot(r.position[v] - start, target - start), 0.99 * Norm(r.position[v] - start) * before);
-    // Down the same slope it does not go.
-    EXPECT_FALSE(relocator.Ascend(v, 0.2, [](const LocalStar &, const Point &q, Point *gradient) {
-        if (gradient != nullptr)
-            *gradient += Point(1, 0, 0);
-        return -SquaredNorm(q);
-    }));
+    for (const bool cheap : {false, true}) {
+        Remesh moved = r;
+        Relocator relocator(model, moved);
+        EXPECT_TRUE(relocator.Ascend(v, 0.2, nearness, cheap));
+        EXPECT_LT(Norm(moved.position[v] - target), before);
+        EXPECT_GT(Dot(moved.position[v] - start, target - start), 0.99 * Norm(moved.position[v] - start) * before);
+        // Down the same slope it does not go.
+        const auto slope = [](const LocalStar &, const Point &q, Point *gradient) {
+            if (gradient != nullptr)
+                *gradient += Point(1, 0, 0);
+            return -SquaredNorm(q);
+        };
+        EXPECT_FALSE(relocator.Ascend(v, 0.2, slope, cheap));
+    }
 }
 
 TEST(Perturbation, StepsLieInTheTangentPlaneWithinLambda)

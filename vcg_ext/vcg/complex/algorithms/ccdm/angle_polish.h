@@ -16,12 +16,7 @@ namespace ccdm {
 /// 1964, 4.4.45: only square roots and products, the same bits on every machine).
 inline double SmallestAngle(double la, double lb, double lc)
 {
-    // It lies opposite the shortest side.
-    const double shortest = std::min({la, lb, lc});
-    const double product = la <= lb && la <= lc ? lb * lc : lb <= lc ? la * lc : la * lb;
-    if (!(product > 0))
-        return 0;
-    const double x = std::min((la + lb + lc - 2 * shortest) / (2 * std::sqrt(product)), 1.0);
+    const double x = std::min(LargestCosine(la, lb, lc), 1.0);
     return std::sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
 }
 
@@ -36,14 +31,15 @@ inline double SmallestAngle(const Point &a, const Point &b, const Point &c)
 inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &cross, double uu, double ww, double uw)
 {
     constexpr double alike = 0.03; // of the squared length of the shortest side; measured
-    const double area = Norm(cross);
-    if (!(area > 0))
-        return Point(0, 0, 0);
     // An angle is as small as the side opposite to it is short.
     const double least = std::min({uu, ww, uw}), scale = 1 / (alike * least);
     const auto weight = [&](double side) { return std::max(0.0, 1 - (side - least) * scale); };
-    const double atQ = weight(uw), atU = weight(ww), atW = weight(uu), all = 1 / ((atQ + atU + atW) * area);
-    return Cross(cross, u) * ((atQ - atU) / uu * all) + Cross(cross, w) * ((atW - atQ) / ww * all);
+    const double atQ = weight(uw), atU = weight(ww), atW = weight(uu);
+    const double product = (atQ + atU + atW) * Norm(cross) * uu * ww;
+    if (!(product > 0))
+        return Point(0, 0, 0);
+    const double all = 1 / product;
+    return Cross(cross, u) * ((atQ - atU) * ww * all) + Cross(cross, w) * ((atW - atQ) * uu * all);
 }
 
 /// Smallest angle of triangle k of a star; adds to the gradient `weight(angle)` times what the angle changes by.
@@ -75,7 +71,7 @@ public:
             Flip();
             _schedule.ForVertices([&](int v, int worker) {
                 if (_remesh.place[v].kind != VertexKind::Corner)
-                    _relocator[worker].Ascend(v, size, Sum);
+                    _relocator[worker].Ascend(v, size, Sum, true);
             });
         }
         Flip();

@@ -35,7 +35,7 @@ public:
             return;
         _stray.assign(triangles, 0);
         _active.assign(_remesh.VertexCount(), 1);
-        double size = 0.1;
+        double size = 0.12;
         for (int round = 0; round < rounds; ++round, size *= 0.8) {
             Measure();
             if (round % 2 == 0)
@@ -232,7 +232,7 @@ private:
                 }
             return sum;
         };
-        _relocator[worker].Ascend(v, size, score);
+        _relocator[worker].Ascend(v, size, score, false);
     }
 
     static Foot NearestOnStar(const LocalStar &star, const Point &q, const Point &p)

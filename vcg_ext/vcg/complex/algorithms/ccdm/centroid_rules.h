@@ -97,12 +97,13 @@ struct CellCentroid {
             // The circumcentre is a u + b w; signed areas of the two parts.
             const double scale = 0.5 / m2, a = ww * (uu - uw) * scale, b = uu * (ww - uw) * scale;
             const double areaU = 0.5 * b * m, areaW = 0.5 * a * m;
-            const Point centre = u * a + w * b;
             if (uniform) {
-                sum += u * (0.5 * areaU) + w * (0.5 * areaW) + centre * (areaU + areaW);
-                mass += areaU + areaW;
+                const double area = areaU + areaW;
+                sum += u * (0.5 * areaU + a * area) + w * (0.5 * areaW + b * area);
+                mass += area;
                 continue;
             }
+            const Point centre = u * a + w * b;
             const double r = remesh.rho[v], ru = 0.5 * (r + remesh.rho[star.id[k]]),
                          rw = 0.5 * (r + remesh.rho[star.id[next]]);
             const double rc = std::max(r + 2 * a * (ru - r) + 2 * b * (rw - r), 0.1 * r);

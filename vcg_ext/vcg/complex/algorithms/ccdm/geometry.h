@@ -54,6 +54,21 @@ inline double TurnAngle(const Point &a, const Point &b, const Point &p, const Po
     return std::atan2(Norm(Cross(n1, n2)), Dot(n1, n2));
 }
 
+/// Cosine of the smallest angle of the triangle with these squared lengths of the sides: less is better; 1 for one
+/// with a side of no length.
+inline double LargestCosine(double la, double lb, double lc)
+{
+    // It lies opposite the shortest side. Sorted without branches, which nothing could foretell.
+    const double low = std::min(la, lb), high = std::max(la, lb);
+    const double shortest = std::min(low, lc), product = std::max(low, std::min(high, lc)) * std::max(high, lc);
+    return product > 0 ? (la + lb + lc - 2 * shortest) / (2 * std::sqrt(product)) : 1;
+}
+
+inline double LargestCosine(const Point &a, const Point &b, const Point &c)
+{
+    return LargestCosine(SquaredNorm(c - b), SquaredNorm(a - c), SquaredNorm(b - a));
+}
+
 /// [FB99] aspect ratio of a triangle, 2 sqrt(3) area / (half perimeter * longest edge): 1 for an
 /// equilateral one, 0 for a degenerate one.
 inline double AspectRatio(const Point &a, const Point &b, const Point &c)

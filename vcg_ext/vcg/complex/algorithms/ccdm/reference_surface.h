@@ -146,7 +146,7 @@ public:
 private:
     static constexpr int MaxGates = 256;
 
-    /// The faces of one search. Most searches see a few; where hundreds of faces meet in a place, the filter spares
+    /// The faces of one search. Most searches see a few; where hundreds of faces meet in a place, a filter spares
     /// looking through them.
     class Visited
     {
@@ -155,11 +155,12 @@ private:
         void Add(int face)
         {
             _face[_count++] = face;
-            _filter[Slot(face)] |= Bit(face);
+            if (_count > Few)
+                Filter(face);
         }
         bool Has(int face) const
         {
-            if ((_filter[Slot(face)] & Bit(face)) == 0)
+            if (_count > Few && (_filter[Slot(face)] & Bit(face)) == 0)
                 return false;
             int k = _count - 1;
             while (k >= 0 && _face[k] != face)
@@ -168,10 +169,20 @@ private:
         }
 
     private:
-        static constexpr int Most = 192, Words = 16;
-        std::array<std::uint64_t, Words> _filter{};
+        static constexpr int Most = 192, Words = 16, Few = 6;
+        std::array<std::uint64_t, Words> _filter; // once there are more than a few
         std::array<int, Most> _face;
         int _count = 0;
+
+        void Filter(int face)
+        {
+            if (_count == Few + 1) {
+                _filter.fill(0);
+                for (int k = 0; k < Few; ++k)
+                    _filter[Slot(_face[k])] |= Bit(_face[k]);
+            }
+            _filter[Slot(face)] |= Bit(face);
+        }
 
         static unsigned Slot(int face) { return static_cast<unsigned>(face) / 64 % Words; }
         static std::uint64_t Bit(int face) { return std::uint64_t(1) << (static_cast<unsigned>(face) % 64); }

@@ -98,11 +98,12 @@ public:
         return moved;
     }
 
-    /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score if
-    /// the score rises by that. score(star, position relative to v, gradient) adds to the gradient unless it
-    /// is null.
+    /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score, or by half
+    /// of that, if the score rises by that. score(star, position relative to v, gradient) adds to the gradient unless
+    /// it is null. `cheap`: to find the surface costs more than the score; a step of a free vertex that gains nothing
+    /// in the tangent plane is not tried on the surface.
     template <class Score>
-    bool Ascend(int v, double size, const Score &score)
+    bool Ascend(int v, double size, const Score &score, bool cheap)
     {
         Gather(v);
         Point g(0, 0, 0);
@@ -113,8 +114,14 @@ public:
         const double length = Norm(g);
         if (!(length > 0))
             return false;
-        return Move(v, g * (size * _star.radius / length),
-                    [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; });
+        const auto gains = [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; };
+        Point step = g * (size * _star.radius / length);
+        if (cheap && _remesh.place[v].kind == VertexKind::Free && !gains(step)) {
+            step *= 0.5;
+            if (!gains(step))
+                return false;
+        }
+        return Move(v, step, gains);
     }
 
     /// The vector (x, y) in the tangent plane of a star.
@@ -150,32 +157,60 @@ private:
             s.cross.resize(s.spoke.size());
             s.squared.resize(s.spoke.size());
         }
-        s.normal = Point(0, 0, 0);
-        s.radius = 0;
+        // Sums in locals: in the star, each addition would wait for the last one to be stored.
+        Point normal(0, 0, 0);
+        double radius = 0;
         for (int k = 0; k < s.triangles; ++k) {
-            s.cross[k] = Cross(s.spoke[k], s.spoke[s.After(k)]);
-            s.normal += s.cross[k];
+            const Point cross = Cross(s.spoke[k], s.spoke[s.After(k)]);
+            s.cross[k] = cross;
+            normal += cross;
         }
         for (int k = 0; k < s.spokes; ++k) {
-            s.squared[k] = SquaredNorm(s.spoke[k]);
-            s.radius += std::sqrt(s.squared[k]);
+            const double squared = SquaredNorm(s.spoke[k]);
+            s.squared[k] = squared;
+            radius += std::sqrt(squared);
         }
-        s.radius /= s.spokes;
+        s.normal = normal;
+        s.radius = radius / s.spokes;
     }
 
     void TakeRing(int v, const Triangulation::Ring &ring)
     {
         LocalStar &s = _star;
         Reserve(Triangulation::MostInRing);
-        s.closed = true;
-        s.onCurve = s.walled = false;
         const Point x = _remesh.position[v];
-        int k = 0;
+        int k = 0, marks = 0;
         for (; k < Triangulation::MostInRing && ring[k] >= 0; ++k) {
-            s.id[k] = ring[k];
-            s.spoke[k] = _remesh.position[ring[k]] - x;
+            const int outer = ring[k] & Triangulation::RingNumber;
+            marks |= ring[k];
+            s.id[k] = outer;
+            s.spoke[k] = _remesh.position[outer] - x;
         }
-        s.spokes = s.triangles = k;
+        s.spokes = k;
+        s.closed = (marks & Triangulation::RingOpen) == 0;
+        s.triangles = s.closed ? k : k - 1;
+        s.walled = (marks & Triangulation::RingWall) != 0;
+        s.onCurve = (marks & Triangulation::RingSpoke) != 0;
+        if (s.walled || s.onCurve)
+            for (k = 0; k < s.spokes; ++k) {
+                s.wall[k] = static_cast<char>((ring[k] & Triangulation::RingWall) != 0);
+                s.sectorStart[k] = static_cast<char>((ring[k] & Triangulation::RingSpoke) != 0);
+            }
+    }
+
+    void KeepRing(int v)
+    {
+        const LocalStar &s = _star;
+        if (!_remesh.mesh.KeepsRingsOf(s.spokes))
+            return;
+        Triangulation::Ring ring;
+        ring.fill(-1);
+        for (int k = 0; k < s.spokes; ++k)
+            ring[k] = s.id[k] | (k < s.triangles && s.wall[k] != 0 ? Triangulation::RingWall : 0) |
+                      (s.sectorStart[k] != 0 ? Triangulation::RingSpoke : 0);
+        if (!s.closed)
+            ring[0] |= Triangulation::RingOpen;
+        _remesh.mesh.KeepRing(v, ring);
     }
 
     void WalkAround(int v)
@@ -223,8 +258,7 @@ private:
         }
         s.triangles = k;
         s.spokes = k + (s.closed ? 0 : 1);
-        if (s.closed && !s.onCurve && !s.walled)
-            _remesh.mesh.KeepRing(v, s.id.data(), k);
+        KeepRing(v);
     }
 
     void Reserve(int spokes)

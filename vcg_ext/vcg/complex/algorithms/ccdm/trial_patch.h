@@ -12,16 +12,7 @@
 namespace vcg {
 namespace ccdm {
 
-/// Cosine of the smallest angle of a triangle: less is better; 1 for one without area.
-inline double LargestCosine(const Point &a, const Point &b, const Point &c)
-{
-    // The smallest angle lies opposite the shortest side.
-    const double la = SquaredNorm(c - b), lb = SquaredNorm(a - c), lc = SquaredNorm(b - a);
-    const double shortest = std::min({la, lb, lc});
-    const double product = la <= lb && la <= lc ? lb * lc : lb <= lc ? la * lc : la * lb;
-    return product > 0 ? (la + lb + lc - 2 * shortest) / (2 * std::sqrt(product)) : 1;
-}
-
+/// Cosine of the smallest angle of a triangle.
 inline double LargestCosine(const Remesh &r, int t)
 {
     const Triangle &T = r.mesh.triangle[t];

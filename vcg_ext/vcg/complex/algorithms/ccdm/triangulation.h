@@ -76,9 +76,12 @@ public:
     std::vector<Triangle> triangle;
     std::vector<int> incident; ///< one live triangle of each vertex; -1 for a dead vertex
 
-    /// Outer vertices of a closed star in walking order; -1 after the last if there is room.
+    /// Outer vertices of a star in walking order, each with its marks; -1 after the last if there is room.
     static constexpr int MostInRing = 8;
     using Ring = std::array<int, MostInRing>;
+    /// Marks of an entry of a ring: the side between this outer vertex and the next is constrained; the edge to this
+    /// one is, or ends the star; (of the first entry) the star is open.
+    static constexpr int RingWall = 1 << 28, RingSpoke = 1 << 29, RingOpen = 1 << 30, RingNumber = RingWall - 1;
 
     int VertexCount() const { return static_cast<int>(incident.size()); }
     int TriangleCount() const { return static_cast<int>(triangle.size()); }
@@ -233,14 +236,8 @@ public:
     /// From now on until the next change other than a flip, rings that are given to KeepRing are known for
     /// as long as no flip changes them. A sweep over known rings reads no triangles.
     void KeepRings() { _ring.assign(incident.size(), {-1}); }
-    void KeepRing(int v, const int *outer, int count)
-    {
-        if (_ring.empty() || count > MostInRing)
-            return;
-        std::copy(outer, outer + count, _ring[v].begin());
-        if (count < MostInRing)
-            _ring[v][count] = -1;
-    }
+    bool KeepsRingsOf(int count) const { return !_ring.empty() && count <= MostInRing; }
+    void KeepRing(int v, const Ring &ring) { _ring[v] = ring; }
     /// For callers that write triangles themselves.
     void ForgetRing(int v)
     {
