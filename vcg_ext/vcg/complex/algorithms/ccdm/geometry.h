@@ -13,6 +13,14 @@
 namespace vcg {
 namespace ccdm {
 
+/// Asks for the memory at an address, which will be read soon. Without effect where the compiler has no means.
+inline void Prefetch([[maybe_unused]] const void *address)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#endif
+}
+
 constexpr double Pi = 3.14159265358979323846;
 
 inline double Dot(const Point &a, const Point &b)

@@ -113,6 +113,17 @@ public:
         return {bestFace, best};
     }
 
+    /// Has a face brought into the cache: its record first, its corners by a second call some time later.
+    void Prefetch(int face, bool corners) const
+    {
+        const Triangle &T = mesh.triangle[face];
+        if (!corners)
+            ccdm::Prefetch(&T);
+        else
+            for (const int v : T.v)
+                ccdm::Prefetch(&position[v]);
+    }
+
     /// Whether two faces are joined by faces that come within `radius` of p, without crossing a feature; after
     /// `most` faces the answer is no.
     bool Joined(int from, int to, const Point &p, double radius, std::size_t most) const

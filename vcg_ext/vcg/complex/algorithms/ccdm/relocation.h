@@ -57,6 +57,7 @@ public:
     {
         if (_remesh.place[v].kind == VertexKind::Corner)
             return false;
+        PrefetchAfter(v);
         Gather(v);
         return Move(v, displacement(_star, v), [](const Point &) { return true; });
     }
@@ -105,6 +106,7 @@ public:
     template <class Score>
     bool Ascend(int v, double size, const Score &score, bool cheap)
     {
+        PrefetchAfter(v);
         Gather(v);
         Point g(0, 0, 0);
         const double before = score(_star, Point(0, 0, 0), &g);
@@ -143,6 +145,18 @@ private:
         const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
         t1 = Normalized(Cross(n, axis));
         t2 = Cross(n, t1);
+    }
+
+    // The faces of the vertices that come next in a sweep: where the tables are larger than the caches, waiting for
+    // them took a tenth of the time. Of the patch at hand only, as another thread may be at work on the next one.
+    void PrefetchAfter(int v) const
+    {
+        constexpr int ahead = 4;
+        const int end = std::min((Patches::Of(v) + 1) * Patches::Size, _remesh.VertexCount());
+        if (v + ahead < end)
+            _model.surface.Prefetch(_remesh.place[v + ahead].face, true);
+        if (v + 2 * ahead < end)
+            _model.surface.Prefetch(_remesh.place[v + 2 * ahead].face, false);
     }
 
     void Gather(int v)
