@@ -10,15 +10,12 @@
 #include <vcg/complex/algorithms/ccdm/target_search.h>
 
 using vcg::ccdm::Params;
-using Quality = vcg::tri::MeshQuality<filter_ccdm::Mesh>;
 
 namespace filter_ccdm {
 
 Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
     : report(std::move(r)), seconds(time), diagonal(Diagonal(input)),
-      before(vcg::ccdm::AsMended(Quality::Measure(input), report)), after(Quality::Measure(result)),
-      distance(Quality::Distance(input, result)),
-      selfIntersections(Quality::CountSelfIntersections(input, result, report.defects.mergedVertices > 0))
+      figures(vcg::ccdm::CompareMended(input, result, report, true))
 {
 }
 
@@ -63,7 +60,7 @@ QStringList DescribePlan(const Mesh &input, const Settings &settings)
 QStringList DescribeRun(const Measured &run)
 {
     const vcg::ccdm::Report &report = run.report;
-    const auto &before = run.before, &after = run.after;
+    const auto &before = run.figures.before, &after = run.figures.after;
     QStringList lines;
     const auto line = [&](const QString &name, const QString &a, const QString &b) {
         lines << name.leftJustified(36) + a.rightJustified(10) + b.rightJustified(10);
@@ -82,9 +79,9 @@ QStringList DescribeRun(const Measured &run)
     row("aspect ratio [FB99], average", before.qFb99Avg, after.qFb99Avg, 3);
     row("interior vertices of valence 6 (%)", before.pctValence6, after.pctValence6, 1);
     lines << QString("distance / diagonal: Hausdorff %1, RMS %2")
-                 .arg(run.distance.hausdorff, 0, 'e', 2)
-                 .arg(run.distance.rms, 0, 'e', 2);
-    const vcg::tri::SelfIntersectionCounts &crossing = run.selfIntersections;
+                 .arg(run.figures.distance.hausdorff, 0, 'e', 2)
+                 .arg(run.figures.distance.rms, 0, 'e', 2);
+    const vcg::tri::SelfIntersectionCounts &crossing = run.figures.selfIntersections;
     if (crossing.before + crossing.after > 0)
         lines << QString("pairs of faces that cross: %1 before, %2 after; faces in new ones: %3")
                      .arg(crossing.before)
@@ -120,33 +117,33 @@ Outputs OutputsOf(const Measured &run)
     const vcg::ccdm::Report &report = run.report;
     Outputs out;
     // PyMeshLab passes on int, double and bool, nothing unsigned, long or text.
-    out["vertex_number"] = run.after.vertices;
-    out["face_number"] = run.after.faces;
+    out["vertex_number"] = run.figures.after.vertices;
+    out["face_number"] = run.figures.after.faces;
     out["extra_vertices"] = report.extraVertices;
     out["kept_vertices"] = report.keptVertices;
-    out["average_smallest_angle"] = run.after.angleMinAvg;
-    out["smallest_angle"] = run.after.angleMin;
-    out["largest_angle"] = run.after.angleMax;
-    out["percent_angles_below_30"] = run.after.pctLt30;
+    out["average_smallest_angle"] = run.figures.after.angleMinAvg;
+    out["smallest_angle"] = run.figures.after.angleMin;
+    out["largest_angle"] = run.figures.after.angleMax;
+    out["percent_angles_below_30"] = run.figures.after.pctLt30;
     out["triangles_below_min_angle"] = static_cast<int>(report.angles.below.size());
-    out["average_aspect_ratio"] = run.after.qFb99Avg;
-    out["smallest_aspect_ratio"] = run.after.qFb99Min;
-    out["percent_valence_6"] = run.after.pctValence6;
+    out["average_aspect_ratio"] = run.figures.after.qFb99Avg;
+    out["smallest_aspect_ratio"] = run.figures.after.qFb99Min;
+    out["percent_valence_6"] = run.figures.after.pctValence6;
     out["mean_edge_length"] = report.meanEdgeLength;
-    out["surface_area"] = run.after.area;
-    out["hausdorff"] = run.distance.hausdorff;
-    out["rms"] = run.distance.rms;
-    out["euler_characteristic_before"] = run.before.euler;
-    out["euler_characteristic_after"] = run.after.euler;
-    out["boundary_loops"] = run.after.boundaryLoops;
-    out["components"] = run.after.components;
+    out["surface_area"] = run.figures.after.area;
+    out["hausdorff"] = run.figures.distance.hausdorff;
+    out["rms"] = run.figures.distance.rms;
+    out["euler_characteristic_before"] = run.figures.before.euler;
+    out["euler_characteristic_after"] = run.figures.after.euler;
+    out["boundary_loops"] = run.figures.after.boundaryLoops;
+    out["components"] = run.figures.after.components;
     // A count of pairs above the range of int is one too many to be read.
     const auto count = [](long long pairs) {
         return static_cast<int>(std::min<long long>(pairs, std::numeric_limits<int>::max()));
     };
-    out["crossing_pairs_before"] = count(run.selfIntersections.before);
-    out["crossing_pairs_after"] = count(run.selfIntersections.after);
-    out["faces_in_new_crossings"] = run.selfIntersections.newFaces;
+    out["crossing_pairs_before"] = count(run.figures.selfIntersections.before);
+    out["crossing_pairs_after"] = count(run.figures.selfIntersections.after);
+    out["faces_in_new_crossings"] = run.figures.selfIntersections.newFaces;
     out["topology_preserved"] = report.topologyPreserved;
     out["target_met"] = vcg::ccdm::TargetSearch::Met(report);
     out["energy_before"] = report.energy.empty() ? 0.0 : report.energy.front();

@@ -25,9 +25,7 @@ struct Measured {
     vcg::ccdm::Report report;
     double seconds;
     double diagonal; ///< of the input
-    vcg::tri::MeshQualityReport before, after;
-    vcg::tri::SurfaceDistance distance;
-    vcg::tri::SelfIntersectionCounts selfIntersections;
+    vcg::tri::MeshComparison figures;
 };
 
 /// What will be done, for the log before the run.

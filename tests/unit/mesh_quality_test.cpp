@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/mesh_quality.h>
 
+#include <new>
+
 #include <gtest/gtest.h>
 
 #include "support/meshes.h"
@@ -135,6 +137,40 @@ TEST(MeshQuality, DistanceIsTheLargerDirection)
     EXPECT_NEAR(d.hausdorffBackward, 0, 1e-12);
     // Mean square of a distance that grows from 0 to 0.5 over half of the area.
     EXPECT_NEAR(d.rms, std::sqrt(0.25 / 3 / 2) / std::sqrt(2.0), 2e-3);
+}
+
+TEST(MeshQuality, ComparisonIsThatOfItsPartsOnOneThreadAndOnTwo)
+{
+    MeshD a, b;
+    meshes::Fill(a, shapes::KleinBottle(40, 20)); // it crosses itself
+    meshes::Fill(b, shapes::KleinBottle(30, 14));
+    using Quality = vcg::tri::MeshQuality<MeshD>;
+    for (const bool parallel : {false, true}) {
+        const vcg::tri::MeshComparison c = Quality::Compare(a, b, false, parallel);
+        EXPECT_EQ(c.before.angleMinAvg, Quality::Measure(a).angleMinAvg);
+        EXPECT_EQ(c.after.angleMinAvg, Quality::Measure(b).angleMinAvg);
+        EXPECT_GT(c.distance.rms, 0);
+        EXPECT_EQ(c.distance.hausdorff, Quality::Distance(a, b).hausdorff);
+        EXPECT_EQ(c.distance.rms, Quality::Distance(a, b).rms);
+        EXPECT_GT(c.selfIntersections.before, 0);
+        EXPECT_EQ(c.selfIntersections.before, Quality::CountSelfIntersections(a, b).before);
+        EXPECT_EQ(c.selfIntersections.after, Quality::CountSelfIntersections(a, b).after);
+        EXPECT_EQ(c.selfIntersections.newFaces, Quality::CountSelfIntersections(a, b).newFaces);
+    }
+}
+
+TEST(TwoAtATime, PassesOnWhatEitherThrowsOnceBothHaveEnded)
+{
+    for (const bool parallel : {false, true}) {
+        bool ended = false;
+        EXPECT_THROW(vcg::tri::TwoAtATime(
+                         parallel, [&] { ended = true; }, [] { throw std::bad_alloc(); }),
+                     std::bad_alloc);
+        EXPECT_TRUE(ended);
+        EXPECT_THROW(vcg::tri::TwoAtATime(
+                         parallel, [] { throw std::bad_alloc(); }, [] {}),
+                     std::bad_alloc);
+    }
 }
 
 TEST(MeshQuality, DistanceFarFromTheOriginAndAtAnySize)

@@ -22,7 +22,6 @@ namespace {
 using namespace ccdm_remesh;
 using vcg::ccdm::Status;
 using Remeshing = vcg::tri::CCDMRemeshing<Mesh>;
-using Quality = vcg::tri::MeshQuality<Mesh>;
 
 enum ExitStatus {
     Done = 0,
@@ -111,10 +110,7 @@ void Remesh(const Options &options, RunSummary &run)
         const auto written = std::chrono::steady_clock::now();
         if (stopped("after the result was written"))
             return;
-        run.before = vcg::ccdm::AsMended(Quality::Measure(input), run.engine);
-        run.after = Quality::Measure(result);
-        run.distance = Quality::Distance(input, result);
-        run.selfIntersections = Quality::CountSelfIntersections(input, result, run.engine.defects.mergedVertices > 0);
+        run.measured = vcg::ccdm::CompareMended(input, result, run.engine, options.params.threads != 1);
         run.engine.seconds.emplace_back("measuring", SecondsSince(written));
     }
     end(Done, "");

@@ -136,21 +136,20 @@ std::string WriteReport(const Options &options, const RunSummary &run)
     Json j;
     j["status"] = run.status;
     j["message"] = run.message;
-    j["input"] = run.before ? QualityJson(*run.before) : Json::object();
+    j["input"] = run.measured ? QualityJson(run.measured->before) : Json::object();
     j["input"]["file"] = options.input;
     j["input"]["defects"] = DefectsJson(e.defects);
     j["parameters"] = ParametersJson(options.params);
     j["result"] = nullptr;
-    if (run.after) {
-        j["result"] = QualityJson(*run.after);
+    if (run.measured) {
+        const vcg::tri::MeshComparison &m = *run.measured;
+        j["result"] = QualityJson(m.after);
         j["result"]["file"] = options.output;
-        j["result"]["hausdorff"] = run.distance ? Number(run.distance->hausdorff) : Json(nullptr);
-        j["result"]["rms"] = run.distance ? Number(run.distance->rms) : Json(nullptr);
-        if (run.selfIntersections) {
-            j["input"]["self_intersections"] = run.selfIntersections->before;
-            j["result"]["self_intersections"] = run.selfIntersections->after;
-            j["result"]["new_self_intersecting_faces"] = run.selfIntersections->newFaces;
-        }
+        j["result"]["hausdorff"] = Number(m.distance.hausdorff);
+        j["result"]["rms"] = Number(m.distance.rms);
+        j["input"]["self_intersections"] = m.selfIntersections.before;
+        j["result"]["self_intersections"] = m.selfIntersections.after;
+        j["result"]["new_self_intersecting_faces"] = m.selfIntersections.newFaces;
         j["result"]["extra_vertices"] = e.extraVertices;
         j["result"]["mean_edge_length"] = Number(e.meanEdgeLength);
     }
@@ -161,7 +160,7 @@ std::string WriteReport(const Options &options, const RunSummary &run)
                    {"runs", e.runs}};
     j["topology_preserved"] = e.topologyPreserved;
     j["features"] = {{"curves", e.featureCurves}, {"corners", e.featureCorners}, {"pruned", e.prunedFragments}};
-    j["smallest_angle"] = run.after ? AnglesJson(e.angles) : Json(nullptr);
+    j["smallest_angle"] = run.measured ? AnglesJson(e.angles) : Json(nullptr);
     j["narrow"] = NarrowJson(e.narrow);
     j["energy"] = e.energy;
     j["accepted"] = e.accepted;
@@ -180,11 +179,10 @@ void PrintTable(std::ostream &out, const RunSummary &run)
 {
     const auto row = [&](const char *name, int digits, auto value) {
         out << "  " << std::left << std::setw(34) << name << std::right << std::fixed << std::setprecision(digits);
-        for (const auto &q : {run.before, run.after})
-            if (q)
-                out << std::setw(12) << value(*q);
-            else
-                out << std::setw(12) << "-";
+        if (run.measured)
+            out << std::setw(12) << value(run.measured->before) << std::setw(12) << value(run.measured->after);
+        else
+            out << std::setw(12) << "-" << std::setw(12) << "-";
         out << '\n';
     };
     out << "  " << std::left << std::setw(34) << "" << std::right << std::setw(12) << "before" << std::setw(12)
@@ -198,9 +196,9 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     row("angles below 30 deg (%)", 3, [](const MeshQualityReport &q) { return q.pctLt30; });
     row("aspect ratio [FB99], average", 3, [](const MeshQualityReport &q) { return q.qFb99Avg; });
     row("interior vertices of valence 6 (%)", 1, [](const MeshQualityReport &q) { return q.pctValence6; });
-    if (run.distance)
-        out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2) << run.distance->hausdorff
-            << ", RMS " << run.distance->rms << '\n';
+    if (run.measured)
+        out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2)
+            << run.measured->distance.hausdorff << ", RMS " << run.measured->distance.rms << '\n';
     if (run.engine.target != vcg::ccdm::TargetKind::Vertices)
         out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
             << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
@@ -219,9 +217,12 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";
-    if (run.selfIntersections && run.selfIntersections->before + run.selfIntersections->after > 0)
-        out << "  pairs of faces that cross: " << run.selfIntersections->before << " before, "
-            << run.selfIntersections->after << " after; faces in new ones: " << run.selfIntersections->newFaces << '\n';
+    if (run.measured) {
+        const vcg::tri::SelfIntersectionCounts &crossing = run.measured->selfIntersections;
+        if (crossing.before + crossing.after > 0)
+            out << "  pairs of faces that cross: " << crossing.before << " before, " << crossing.after
+                << " after; faces in new ones: " << crossing.newFaces << '\n';
+    }
     for (const std::string &w : run.engine.warnings)
         out << "  note: " << w << '\n';
 }

@@ -18,9 +18,7 @@ struct RunSummary {
     int status = 0; ///< exit status
     std::string message;
     vcg::ccdm::Report engine;
-    std::optional<vcg::tri::MeshQualityReport> before, after;
-    std::optional<vcg::tri::SurfaceDistance> distance;
-    std::optional<vcg::tri::SelfIntersectionCounts> selfIntersections;
+    std::optional<vcg::tri::MeshComparison> measured;
     double seconds = 0; ///< wall time of reading, remeshing, writing and measuring
 };
 

@@ -17,6 +17,7 @@
 
 #include <vcg/complex/algorithms/mesh_quality/self_intersections.h>
 #include <vcg/complex/algorithms/mesh_quality/surface_distance.h>
+#include <vcg/complex/algorithms/mesh_quality/two_at_a_time.h>
 
 namespace vcg {
 namespace tri {
@@ -65,6 +66,13 @@ struct SelfIntersectionCounts {
     int newFaces = 0;     ///< of the result in such pairs, further than two edges from where the original has any
 };
 
+/// A result beside its original.
+struct MeshComparison {
+    MeshQualityReport before, after;
+    SurfaceDistance distance;
+    SelfIntersectionCounts selfIntersections;
+};
+
 /// Metrics of any triangle mesh, manifold or not; the paper's, and those of its peers.
 template <class MeshType>
 class MeshQuality
@@ -73,10 +81,25 @@ public:
     /// Linear in the size of the mesh but for a sort. Reads positions and faces only.
     static MeshQualityReport Measure(const MeshType &m) { return Survey(TriangleSoup::From(m)).report; }
 
-    /// Distances by `samples` points spread over each surface by area; the maximum also over all vertices
-    /// and over the faces where it is nearly reached. Deterministic.
+    /// All of it, of a result beside its original. `sewn`: as in CountSelfIntersections; `parallel`: on two threads, to
+    /// the same figures.
     template <class OtherMesh>
-    static SurfaceDistance Distance(const MeshType &original, const OtherMesh &result, int samples = 100000)
+    static MeshComparison Compare(const MeshType &original, const OtherMesh &result, bool sewn, bool parallel)
+    {
+        MeshComparison c;
+        TwoAtATime(
+            parallel, [&] { c.before = Measure(original); },
+            [&] { c.after = MeshQuality<OtherMesh>::Measure(result); });
+        c.distance = Distance(original, result, DefaultSamples, parallel);
+        c.selfIntersections = CountSelfIntersections(original, result, sewn, parallel);
+        return c;
+    }
+
+    /// Distances by `samples` points spread over each surface by area; the maximum also over all vertices
+    /// and over the faces where it is nearly reached. Deterministic; `parallel`: the two directions at a time.
+    template <class OtherMesh>
+    static SurfaceDistance Distance(const MeshType &original, const OtherMesh &result, int samples = DefaultSamples,
+                                    bool parallel = false)
     {
         TriangleSoup a = Solid(TriangleSoup::From(original));
         const UnitFrame frame(a);
@@ -86,8 +109,10 @@ public:
         SurfaceDistance d;
         if (!(diagonal > 0) || a.face.empty() || b.face.empty())
             return d;
-        const Deviation forward = DeviationMeter(a, TriangleTree(b)).Measure(samples);
-        const Deviation backward = DeviationMeter(b, TriangleTree(a)).Measure(samples);
+        Deviation forward, backward;
+        TwoAtATime(
+            parallel, [&] { forward = DeviationMeter(a, TriangleTree(b)).Measure(samples); },
+            [&] { backward = DeviationMeter(b, TriangleTree(a)).Measure(samples); });
         d.hausdorffForward = forward.max / diagonal;
         d.hausdorffBackward = backward.max / diagonal;
         d.hausdorff = std::max(d.hausdorffForward, d.hausdorffBackward);
@@ -95,10 +120,11 @@ public:
         return d;
     }
 
-    /// Exact, but for what is near in `newFaces`. `sewn`: vertices of the original at one position are one.
+    /// Exact, but for what is near in `newFaces`. `sewn`: vertices of the original at one position are one;
+    /// `parallel`: on two threads.
     template <class OtherMesh>
     static SelfIntersectionCounts CountSelfIntersections(const MeshType &original, const OtherMesh &result,
-                                                         bool sewn = false)
+                                                         bool sewn = false, bool parallel = false)
     {
         TriangleSoup a = TriangleSoup::From(original), b = TriangleSoup::From(result);
         if (sewn)
@@ -106,7 +132,7 @@ public:
         const double scale = UnitFrame(a).Factor();
         a = Scaled(std::move(a), scale);
         b = Scaled(std::move(b), scale);
-        const SelfIntersections before(a), after(b);
+        const SelfIntersections before(a, parallel), after(b, parallel);
         SelfIntersectionCounts counts;
         counts.before = before.pairs;
         counts.after = after.pairs;
@@ -132,6 +158,8 @@ public:
     }
 
 private:
+    static constexpr int DefaultSamples = 100000;
+
     using Vector = TriangleSoup::Vector;
     using Face = TriangleSoup::Face;
 

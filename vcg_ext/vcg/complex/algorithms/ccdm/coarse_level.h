@@ -85,7 +85,9 @@ private:
     /// it raises the angles by 0.3 degrees; on CAD parts at 0.03 it does nothing for them, at 0.04 it lowers them by
     /// 0.3.
     static constexpr double MostOnFeatures = 0.01;
-    static constexpr double AngleSlack = 0.05, AngleAtCreases = 30; // degrees
+    /// Degrees. Measured at creases: for a scan with one triangle between 23 and 26 degrees the second attempt cost 1.4
+    /// times the time and 0.3 degrees of the average.
+    static constexpr double AngleSlack = 0.05, AngleAtCreases = 20;
 
     const Model &_model;
     const Triangulation &_reference;

@@ -30,6 +30,16 @@ inline tri::MeshQualityReport AsMended(tri::MeshQualityReport q, const Report &r
     return q;
 }
 
+/// A result beside its input as mended; `parallel`: on two threads.
+template <class MeshType>
+tri::MeshComparison CompareMended(const MeshType &input, const MeshType &result, const Report &report, bool parallel)
+{
+    const bool sewn = report.defects.mergedVertices > 0;
+    tri::MeshComparison c = tri::MeshQuality<MeshType>::Compare(input, result, sewn, parallel);
+    c.before = AsMended(c.before, report);
+    return c;
+}
+
 } // namespace ccdm
 } // namespace vcg
 

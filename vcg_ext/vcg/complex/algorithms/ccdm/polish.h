@@ -27,6 +27,9 @@ public:
     {
     }
 
+    /// These vertices stay where they are until the next call, though edges at them may flip.
+    void Pin(const std::vector<int> &vertices) { _pinned = {vertices.begin(), vertices.end()}; }
+
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
     /// change may take the mesh no further from the surface than it was, or than `stray` times an edge
     /// length. Attempts in vain are limited, all calls together. Returns the number of
@@ -142,6 +145,7 @@ private:
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed
+    std::unordered_set<int> _pinned;
     Star _star;
 
     double LargestCosine(int t) const { return ccdm::LargestCosine(_remesh, t); }
@@ -332,7 +336,7 @@ private:
     // Pattern search in six directions of the tangent plane.
     bool Shift(int v)
     {
-        if (_remesh.place[v].kind == VertexKind::Corner)
+        if (_remesh.place[v].kind == VertexKind::Corner || _pinned.count(v) > 0)
             return false;
         const Point start = _remesh.position[v];
         const Place place = _remesh.place[v];

@@ -25,7 +25,7 @@ struct LocalStar {
     std::vector<Point> cross;      ///< spoke k x spoke k + 1, twice the area vector of triangle k
     std::vector<char> sectorStart; ///< a feature edge runs along spoke k
     std::vector<char> wall;        ///< the outer side of triangle k is a feature or boundary edge
-    Point normal;                  ///< sum of the cross products
+    Point normal = {0, 0, 0};      ///< sum of the cross products
     double radius = 0;             ///< mean length of the spokes
 
     int After(int k) const { return closed && k + 1 == triangles ? 0 : k + 1; }

@@ -8,6 +8,7 @@
 
 #include <vcg/complex/algorithms/mesh_quality/exact_predicates.h>
 #include <vcg/complex/algorithms/mesh_quality/surface_distance.h>
+#include <vcg/complex/algorithms/mesh_quality/two_at_a_time.h>
 
 namespace vcg {
 namespace tri {
@@ -115,34 +116,40 @@ struct SelfIntersections {
     long long pairs = 0;   ///< of faces
     std::vector<int> face; ///< the faces in such pairs, in order
 
-    /// Exact. Faces without area are left out.
-    explicit SelfIntersections(const TriangleSoup &soup)
+    /// Exact. Faces without area are left out. `parallel`: on two threads, to the same result.
+    explicit SelfIntersections(const TriangleSoup &soup, bool parallel = false)
     {
         const TriangleTree tree(soup);
         const auto corners = [&](int t) {
             const TriangleSoup::Face &f = soup.face[t];
             return TriangleContact::Corners{soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]};
         };
-        std::vector<char> solid(soup.face.size()), hit(soup.face.size(), 0);
+        std::vector<char> solid(soup.face.size());
         for (std::size_t t = 0; t < soup.face.size(); ++t) {
             const TriangleSoup::Face &f = soup.face[t];
             solid[t] =
                 f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && TriangleContact::HasArea(corners(static_cast<int>(t)));
         }
-        for (int t = 0; t < static_cast<int>(soup.face.size()); ++t) {
-            if (!solid[t])
-                continue;
-            const auto own = corners(t);
-            tree.VisitOverlapping(own, [&](int other) {
-                if (other <= t || !solid[other] || !Meet(soup.face[t], own, soup.face[other], corners(other)))
-                    return;
-                ++pairs;
-                hit[t] = hit[other] = 1;
-            });
-        }
-        for (std::size_t t = 0; t < hit.size(); ++t)
-            if (hit[t])
-                face.push_back(static_cast<int>(t));
+        // Both faces of each pair whose first one is in [from, to).
+        const auto search = [&](int from, int to, std::vector<int> &found) {
+            for (int t = from; t < to; ++t) {
+                if (!solid[t])
+                    continue;
+                const auto own = corners(t);
+                tree.VisitOverlapping(own, [&](int other) {
+                    if (other > t && solid[other] && Meet(soup.face[t], own, soup.face[other], corners(other)))
+                        found.insert(found.end(), {t, other});
+                });
+            }
+        };
+        const int count = static_cast<int>(soup.face.size());
+        std::vector<int> upper;
+        TwoAtATime(
+            parallel, [&] { search(0, count / 2, face); }, [&] { search(count / 2, count, upper); });
+        face.insert(face.end(), upper.begin(), upper.end());
+        pairs = static_cast<long long>(face.size() / 2);
+        std::sort(face.begin(), face.end());
+        face.erase(std::unique(face.begin(), face.end()), face.end());
     }
 
 private:
