@@ -130,26 +130,34 @@ struct SelfIntersections {
             solid[t] =
                 f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && TriangleContact::HasArea(corners(static_cast<int>(t)));
         }
-        // Both faces of each pair whose first one is in [from, to).
-        const auto search = [&](int from, int to, std::vector<int> &found) {
+        // The pairs whose first face is in [from, to), and the faces in them.
+        struct Found {
+            long long pairs = 0;
+            std::vector<char> hit;
+        };
+        const auto search = [&](int from, int to) {
+            Found found = {0, std::vector<char>(soup.face.size(), 0)};
             for (int t = from; t < to; ++t) {
                 if (!solid[t])
                     continue;
                 const auto own = corners(t);
                 tree.VisitOverlapping(own, [&](int other) {
-                    if (other > t && solid[other] && Meet(soup.face[t], own, soup.face[other], corners(other)))
-                        found.insert(found.end(), {t, other});
+                    if (other <= t || !solid[other] || !Meet(soup.face[t], own, soup.face[other], corners(other)))
+                        return;
+                    ++found.pairs;
+                    found.hit[t] = found.hit[other] = 1;
                 });
             }
+            return found;
         };
         const int count = static_cast<int>(soup.face.size());
-        std::vector<int> upper;
+        Found lower, upper;
         TwoAtATime(
-            parallel, [&] { search(0, count / 2, face); }, [&] { search(count / 2, count, upper); });
-        face.insert(face.end(), upper.begin(), upper.end());
-        pairs = static_cast<long long>(face.size() / 2);
-        std::sort(face.begin(), face.end());
-        face.erase(std::unique(face.begin(), face.end()), face.end());
+            parallel, [&] { lower = search(0, count / 2); }, [&] { upper = search(count / 2, count); });
+        pairs = lower.pairs + upper.pairs;
+        for (int t = 0; t < count; ++t)
+            if (lower.hit[t] != 0 || upper.hit[t] != 0)
+                face.push_back(t);
     }
 
 private:
