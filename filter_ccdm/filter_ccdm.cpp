@@ -227,7 +227,8 @@ filter_ccdm::Outputs FilterCcdmPlugin::Remesh(MeshDocument &document, const Rich
     vcg::ccdm::Provenance provenance;
     vcg::ccdm::Report report =
         filter_ccdm::RemeshCopy(input, result, settings.engine, progress, carrier.Any() ? &provenance : nullptr);
-    const filter_ccdm::Measured run(input, result, std::move(report), static_cast<double>(timer.elapsed()) / 1000);
+    const filter_ccdm::Measured run(input, result, std::move(report), static_cast<double>(timer.elapsed()) / 1000,
+                                    settings.engine.threads != 1);
 
     // The layer may be gone by now, and another in its memory.
     if (document.getMesh(id) != source)

@@ -13,9 +13,9 @@ using vcg::ccdm::Params;
 
 namespace filter_ccdm {
 
-Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time)
+Measured::Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report r, double time, bool parallel)
     : report(std::move(r)), seconds(time), diagonal(Diagonal(input)),
-      figures(vcg::ccdm::CompareMended(input, result, report, true))
+      figures(vcg::ccdm::CompareMended(input, result, report, parallel))
 {
 }
 

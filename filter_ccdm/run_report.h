@@ -20,7 +20,7 @@ using Outputs = std::map<std::string, QVariant>;
 
 /// A finished run, measured.
 struct Measured {
-    Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report report, double seconds);
+    Measured(const Mesh &input, const Mesh &result, vcg::ccdm::Report report, double seconds, bool parallel);
 
     vcg::ccdm::Report report;
     double seconds;

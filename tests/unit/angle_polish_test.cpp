@@ -32,6 +32,29 @@ TEST(SmallestAngle, AgreesWithTheArcTangent)
     EXPECT_EQ(SmallestAngle(Point(0, 0, 0), Point(0, 0, 0), Point(0, 0, 0)), 0);
 }
 
+TEST(LargestCosine, IsTheSameInAnyOrderOfTheSides)
+{
+    const auto all = [](double a, double b, double c) {
+        const double cosine = LargestCosine(a, b, c);
+        for (const double other : {LargestCosine(a, c, b), LargestCosine(b, a, c), LargestCosine(b, c, a),
+                                   LargestCosine(c, a, b), LargestCosine(c, b, a)})
+            EXPECT_NEAR(other, cosine, 1e-15);
+        return cosine;
+    };
+    EXPECT_NEAR(all(9, 16, 25), 0.8, 1e-15);
+    EXPECT_NEAR(all(1, 1, 1), 0.5, 1e-15);
+    EXPECT_NEAR(all(1, 1, 4), 1, 1e-15); // three points of a line
+    EXPECT_EQ(all(0, 1, 1), 1);          // two points at one place: the angle between the long sides is 0
+    EXPECT_EQ(all(0, 0, 0), 1);
+}
+
+TEST(SmallestAngleGradient, IsZeroWhereThereIsNone)
+{
+    const Point u(1, 0, 0), w(2, 0, 0), none(0, 0, 0);
+    EXPECT_EQ(SmallestAngleGradient(u, w, Cross(u, w), 1, 4, 1), none);
+    EXPECT_EQ(SmallestAngleGradient(none, w, Cross(none, w), 0, 4, 4), none);
+}
+
 TEST(SmallestAngleGradient, AgreesWithFiniteDifferences)
 {
     Random random(9);

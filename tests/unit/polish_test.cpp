@@ -53,7 +53,7 @@ TEST(Polish, LeavesPinnedVerticesWhereTheyAre)
     for (int v = 0; v < r.VertexCount(); v += 5)
         pinned.push_back(v);
     const std::vector<Point> before = r.position;
-    Polish polish(model, r, 10000);
+    Polish polish(model, r);
     polish.Pin(pinned);
     const int left = polish.RaiseAngles(34, 0.1, 40);
     int moved = 0;

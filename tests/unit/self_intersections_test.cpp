@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -95,6 +96,18 @@ TEST(SelfIntersections, OfFacesThatShareNothingAVertexAnEdge)
     EXPECT_EQ(with({}, {1, 0, 2}), 1);
     // One without area is left out.
     EXPECT_EQ(with({{2, 2, 0}}, {1, 3, 2}), 0);
+}
+
+TEST(SelfIntersections, AreTheSameOnOneThreadAndOnTwo)
+{
+    MeshD m;
+    meshes::Fill(m, shapes::Together(shapes::Sphere(3), shapes::Bumpy(3), 0.3));
+    const TriangleSoup soup = TriangleSoup::From(m);
+    const SelfIntersections one(soup, false), two(soup, true);
+    EXPECT_GT(one.pairs, 100);
+    EXPECT_EQ(two.pairs, one.pairs);
+    EXPECT_EQ(two.face, one.face);
+    EXPECT_TRUE(std::is_sorted(two.face.begin(), two.face.end()));
 }
 
 TEST(SelfIntersections, OldAndNewOnes)

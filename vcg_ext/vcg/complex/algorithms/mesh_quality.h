@@ -78,6 +78,9 @@ template <class MeshType>
 class MeshQuality
 {
 public:
+    /// Points on each surface by which distances are measured.
+    static constexpr int DefaultSamples = 100000;
+
     /// Linear in the size of the mesh but for a sort. Reads positions and faces only.
     static MeshQualityReport Measure(const MeshType &m) { return Survey(TriangleSoup::From(m)).report; }
 
@@ -158,8 +161,6 @@ public:
     }
 
 private:
-    static constexpr int DefaultSamples = 100000;
-
     using Vector = TriangleSoup::Vector;
     using Face = TriangleSoup::Face;
 

@@ -70,6 +70,7 @@ public:
         for (int round = 0; round < rounds; ++round, size *= 0.82) {
             Flip();
             _schedule.ForVertices([&](int v, int worker) {
+                _relocator[worker].PrefetchAfter(v);
                 if (_remesh.place[v].kind != VertexKind::Corner)
                     _relocator[worker].Ascend(v, size, Sum, true);
             });

@@ -27,7 +27,7 @@ public:
     {
     }
 
-    /// These vertices stay where they are until the next call, though edges at them may flip.
+    /// RaiseAngles leaves these vertices where they are until the next call of this, though edges at them may flip.
     void Pin(const std::vector<int> &vertices) { _pinned = {vertices.begin(), vertices.end()}; }
 
     /// Works on the triangles with an angle under `degrees`; at most `rounds` times through them. A
@@ -56,7 +56,8 @@ public:
                 if (LargestCosine(t) > cosine && _failuresLeft > 0 && failures[t] < 2) {
                     const bool helped = Improve(t);
                     failures[t] = helped ? 0 : failures[t] + 1;
-                    _failuresLeft -= helped ? 0 : 1;
+                    // What fails for the pins is tried again without them.
+                    _failuresLeft -= helped || Pinned(t) ? 0 : 1;
                     improved = improved || helped;
                 }
             LookAroundChanged();
@@ -147,6 +148,12 @@ private:
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed
     std::unordered_set<int> _pinned;
     Star _star;
+
+    bool Pinned(int t) const
+    {
+        const Triangle &T = _remesh.mesh.triangle[t];
+        return std::any_of(std::begin(T.v), std::end(T.v), [&](int v) { return _pinned.count(v) > 0; });
+    }
 
     double LargestCosine(int t) const { return ccdm::LargestCosine(_remesh, t); }
 

@@ -113,15 +113,12 @@ public:
         return {bestFace, best};
     }
 
-    /// Has a face brought into the cache: its record first, its corners by a second call some time later.
-    void Prefetch(int face, bool corners) const
+    /// Have a face brought into the cache: its record first, some time later its corners.
+    void PrefetchRecord(int face) const { Prefetch(&mesh.triangle[face]); }
+    void PrefetchCorners(int face) const
     {
-        const Triangle &T = mesh.triangle[face];
-        if (!corners)
-            ccdm::Prefetch(&T);
-        else
-            for (const int v : T.v)
-                ccdm::Prefetch(&position[v]);
+        for (const int v : mesh.triangle[face].v)
+            Prefetch(&position[v]);
     }
 
     /// Whether two faces are joined by faces that come within `radius` of p, without crossing a feature; after

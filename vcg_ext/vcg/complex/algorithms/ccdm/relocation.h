@@ -57,7 +57,6 @@ public:
     {
         if (_remesh.place[v].kind == VertexKind::Corner)
             return false;
-        PrefetchAfter(v);
         Gather(v);
         return Move(v, displacement(_star, v), [](const Point &) { return true; });
     }
@@ -99,14 +98,13 @@ public:
         return moved;
     }
 
-    /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score, or by half
+    /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score, or by a part
     /// of that, if the score rises by that. score(star, position relative to v, gradient) adds to the gradient unless
-    /// it is null. `cheap`: to find the surface costs more than the score; a step of a free vertex that gains nothing
-    /// in the tangent plane is not tried on the surface.
+    /// it is null. `cheapScore`: to find the surface costs more than the score; a step of a free vertex that gains
+    /// nothing in the tangent plane, nor half of it, is not tried on the surface.
     template <class Score>
-    bool Ascend(int v, double size, const Score &score, bool cheap)
+    bool Ascend(int v, double size, const Score &score, bool cheapScore)
     {
-        PrefetchAfter(v);
         Gather(v);
         Point g(0, 0, 0);
         const double before = score(_star, Point(0, 0, 0), &g);
@@ -118,12 +116,25 @@ public:
             return false;
         const auto gains = [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; };
         Point step = g * (size * _star.radius / length);
-        if (cheap && _remesh.place[v].kind == VertexKind::Free && !gains(step)) {
+        if (cheapScore && _remesh.place[v].kind == VertexKind::Free && !gains(step)) {
             step *= 0.5;
             if (!gains(step))
                 return false;
         }
         return Move(v, step, gains);
+    }
+
+    /// In a sweep in order, before v: has the faces of the vertices that come next brought into the cache. Where the
+    /// tables are larger than that, waiting for them took a tenth of the time. Of the patch at hand only, as another
+    /// thread may be at work on the next one.
+    void PrefetchAfter(int v) const
+    {
+        constexpr int ahead = 4;
+        const int end = std::min((Patches::Of(v) + 1) * Patches::Size, _remesh.VertexCount());
+        if (v + ahead < end)
+            _model.surface.PrefetchCorners(_remesh.place[v + ahead].face);
+        if (v + 2 * ahead < end)
+            _model.surface.PrefetchRecord(_remesh.place[v + 2 * ahead].face);
     }
 
     /// The vector (x, y) in the tangent plane of a star.
@@ -145,18 +156,6 @@ private:
         const Point axis = std::abs(n[0]) < 0.6 ? Point(1, 0, 0) : Point(0, 1, 0);
         t1 = Normalized(Cross(n, axis));
         t2 = Cross(n, t1);
-    }
-
-    // The faces of the vertices that come next in a sweep: where the tables are larger than the caches, waiting for
-    // them took a tenth of the time. Of the patch at hand only, as another thread may be at work on the next one.
-    void PrefetchAfter(int v) const
-    {
-        constexpr int ahead = 4;
-        const int end = std::min((Patches::Of(v) + 1) * Patches::Size, _remesh.VertexCount());
-        if (v + ahead < end)
-            _model.surface.Prefetch(_remesh.place[v + ahead].face, true);
-        if (v + 2 * ahead < end)
-            _model.surface.Prefetch(_remesh.place[v + 2 * ahead].face, false);
     }
 
     void Gather(int v)
@@ -204,7 +203,7 @@ private:
         s.closed = (marks & Triangulation::RingOpen) == 0;
         s.triangles = s.closed ? k : k - 1;
         s.walled = (marks & Triangulation::RingWall) != 0;
-        s.onCurve = (marks & Triangulation::RingSpoke) != 0;
+        s.onCurve = _remesh.place[v].kind == VertexKind::Curve;
         if (s.walled || s.onCurve)
             for (k = 0; k < s.spokes; ++k) {
                 s.wall[k] = static_cast<char>((ring[k] & Triangulation::RingWall) != 0);

@@ -79,8 +79,9 @@ public:
     /// Outer vertices of a star in walking order, each with its marks; -1 after the last if there is room.
     static constexpr int MostInRing = 8;
     using Ring = std::array<int, MostInRing>;
-    /// Marks of an entry of a ring: the side between this outer vertex and the next is constrained; the edge to this
-    /// one is, or ends the star; (of the first entry) the star is open.
+    /// Marks of an entry of a ring beside the number, which must be less than RingWall: the side between this outer
+    /// vertex and the next is constrained; the edge to this one is, or ends the star; (of the first entry) the star is
+    /// open.
     static constexpr int RingWall = 1 << 28, RingSpoke = 1 << 29, RingOpen = 1 << 30, RingNumber = RingWall - 1;
 
     int VertexCount() const { return static_cast<int>(incident.size()); }
@@ -137,6 +138,7 @@ public:
     /// Marks both sides of an edge.
     void SetConstrained(Side s, bool on)
     {
+        _ring.clear();
         triangle[SideTriangle(s)].SetConstrained(SideEdge(s), on);
         const Side m = Mate(s);
         if (m != NoSide)

@@ -8,7 +8,7 @@ namespace vcg {
 namespace tri {
 
 /// Does two things that have nothing to do with each other; `parallel`: at the same time, if the system has a thread
-/// to spare. Passes on what they throw, once both have ended.
+/// to spare. Passes on what the first throws, or else the second; none is left running.
 template <class First, class Second>
 void TwoAtATime(bool parallel, const First &first, const Second &second)
 {
