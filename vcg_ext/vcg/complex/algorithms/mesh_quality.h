@@ -68,9 +68,10 @@ struct SelfIntersectionCounts {
 
 /// A result beside its original.
 struct MeshComparison {
-    MeshQualityReport before, after;
-    SurfaceDistance distance;
-    SelfIntersectionCounts selfIntersections;
+    MeshQualityReport before;                 ///< of the original
+    MeshQualityReport after;                  ///< of the result
+    SurfaceDistance distance;                 ///< between them
+    SelfIntersectionCounts selfIntersections; ///< of both
 };
 
 /// Metrics of any triangle mesh, manifold or not; the paper's, and those of its peers.
