@@ -115,35 +115,36 @@ QStringList DescribeRun(const Measured &run)
 Outputs OutputsOf(const Measured &run)
 {
     const vcg::ccdm::Report &report = run.report;
+    const auto &[before, after, distance, crossing] = run.figures;
     Outputs out;
     // PyMeshLab passes on int, double and bool, nothing unsigned, long or text.
-    out["vertex_number"] = run.figures.after.vertices;
-    out["face_number"] = run.figures.after.faces;
+    out["vertex_number"] = after.vertices;
+    out["face_number"] = after.faces;
     out["extra_vertices"] = report.extraVertices;
     out["kept_vertices"] = report.keptVertices;
-    out["average_smallest_angle"] = run.figures.after.angleMinAvg;
-    out["smallest_angle"] = run.figures.after.angleMin;
-    out["largest_angle"] = run.figures.after.angleMax;
-    out["percent_angles_below_30"] = run.figures.after.pctLt30;
+    out["average_smallest_angle"] = after.angleMinAvg;
+    out["smallest_angle"] = after.angleMin;
+    out["largest_angle"] = after.angleMax;
+    out["percent_angles_below_30"] = after.pctLt30;
     out["triangles_below_min_angle"] = static_cast<int>(report.angles.below.size());
-    out["average_aspect_ratio"] = run.figures.after.qFb99Avg;
-    out["smallest_aspect_ratio"] = run.figures.after.qFb99Min;
-    out["percent_valence_6"] = run.figures.after.pctValence6;
+    out["average_aspect_ratio"] = after.qFb99Avg;
+    out["smallest_aspect_ratio"] = after.qFb99Min;
+    out["percent_valence_6"] = after.pctValence6;
     out["mean_edge_length"] = report.meanEdgeLength;
-    out["surface_area"] = run.figures.after.area;
-    out["hausdorff"] = run.figures.distance.hausdorff;
-    out["rms"] = run.figures.distance.rms;
-    out["euler_characteristic_before"] = run.figures.before.euler;
-    out["euler_characteristic_after"] = run.figures.after.euler;
-    out["boundary_loops"] = run.figures.after.boundaryLoops;
-    out["components"] = run.figures.after.components;
+    out["surface_area"] = after.area;
+    out["hausdorff"] = distance.hausdorff;
+    out["rms"] = distance.rms;
+    out["euler_characteristic_before"] = before.euler;
+    out["euler_characteristic_after"] = after.euler;
+    out["boundary_loops"] = after.boundaryLoops;
+    out["components"] = after.components;
     // A count of pairs above the range of int is one too many to be read.
     const auto count = [](long long pairs) {
         return static_cast<int>(std::min<long long>(pairs, std::numeric_limits<int>::max()));
     };
-    out["crossing_pairs_before"] = count(run.figures.selfIntersections.before);
-    out["crossing_pairs_after"] = count(run.figures.selfIntersections.after);
-    out["faces_in_new_crossings"] = run.figures.selfIntersections.newFaces;
+    out["crossing_pairs_before"] = count(crossing.before);
+    out["crossing_pairs_after"] = count(crossing.after);
+    out["faces_in_new_crossings"] = crossing.newFaces;
     out["topology_preserved"] = report.topologyPreserved;
     out["target_met"] = vcg::ccdm::TargetSearch::Met(report);
     out["energy_before"] = report.energy.empty() ? 0.0 : report.energy.front();

@@ -55,6 +55,6 @@ def test_distances_are_those_of_another_program(remesh, measure, tmp_path, path)
     told = json.loads(report.read_text(encoding="utf-8"))["result"]
     run = subprocess.run([measure, path, out, "--samples", "1000000"], capture_output=True, text=True, check=True)
     found = json.loads(run.stdout)
-    # The report's maximum is searched for, to 1 %; the other one is that of samples.
-    assert found["hausdorff"] <= told["hausdorff"] * 1.01 and told["hausdorff"] <= found["hausdorff"] * 1.12
+    # The report's maximum is searched for; the other one is that of samples.
+    assert found["hausdorff"] <= told["hausdorff"] * 1.001 and told["hausdorff"] <= found["hausdorff"] * 1.12
     assert told["rms"] == pytest.approx(found["rms"], rel=0.03)

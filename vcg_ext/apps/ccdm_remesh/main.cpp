@@ -140,8 +140,8 @@ int Run(int argc, char **argv)
     }
     if (run.status != Done)
         std::cerr << (showProgress ? "\n" : "") << "ccdm_remesh: " << run.message << '\n';
-    else if (!options.quiet)
-        PrintTable(std::cout, run);
+    else if (!options.quiet && run.measured)
+        PrintTable(std::cout, run, *run.measured);
     if (!options.report.empty()) {
         const std::string fault = WriteReport(options, run);
         if (!fault.empty()) {

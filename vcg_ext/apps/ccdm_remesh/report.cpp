@@ -175,15 +175,11 @@ std::string WriteReport(const Options &options, const RunSummary &run)
     return WriteAtomically(options.report, j.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
-void PrintTable(std::ostream &out, const RunSummary &run)
+void PrintTable(std::ostream &out, const RunSummary &run, const vcg::tri::MeshComparison &measured)
 {
     const auto row = [&](const char *name, int digits, auto value) {
         out << "  " << std::left << std::setw(34) << name << std::right << std::fixed << std::setprecision(digits);
-        if (run.measured)
-            out << std::setw(12) << value(run.measured->before) << std::setw(12) << value(run.measured->after);
-        else
-            out << std::setw(12) << "-" << std::setw(12) << "-";
-        out << '\n';
+        out << std::setw(12) << value(measured.before) << std::setw(12) << value(measured.after) << '\n';
     };
     out << "  " << std::left << std::setw(34) << "" << std::right << std::setw(12) << "before" << std::setw(12)
         << "after" << '\n';
@@ -196,9 +192,8 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     row("angles below 30 deg (%)", 3, [](const MeshQualityReport &q) { return q.pctLt30; });
     row("aspect ratio [FB99], average", 3, [](const MeshQualityReport &q) { return q.qFb99Avg; });
     row("interior vertices of valence 6 (%)", 1, [](const MeshQualityReport &q) { return q.pctValence6; });
-    if (run.measured)
-        out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2)
-            << run.measured->distance.hausdorff << ", RMS " << run.measured->distance.rms << '\n';
+    out << "  distance / diagonal: Hausdorff " << std::scientific << std::setprecision(2) << measured.distance.hausdorff
+        << ", RMS " << measured.distance.rms << '\n';
     if (run.engine.target != vcg::ccdm::TargetKind::Vertices)
         out << "  " << (run.engine.target == vcg::ccdm::TargetKind::EdgeLength ? "mean edge length" : "largest error")
             << ": asked " << std::defaultfloat << std::setprecision(4) << run.engine.asked << ", reached "
@@ -217,12 +212,10 @@ void PrintTable(std::ostream &out, const RunSummary &run)
     out << "  topology " << (run.engine.topologyPreserved ? "preserved" : "changed") << "; " << run.engine.featureCurves
         << " feature curves, " << run.engine.featureCorners << " corners; " << std::fixed << std::setprecision(2)
         << run.seconds << " s\n";
-    if (run.measured) {
-        const vcg::tri::SelfIntersectionCounts &crossing = run.measured->selfIntersections;
-        if (crossing.before + crossing.after > 0)
-            out << "  pairs of faces that cross: " << crossing.before << " before, " << crossing.after
-                << " after; faces in new ones: " << crossing.newFaces << '\n';
-    }
+    const vcg::tri::SelfIntersectionCounts &crossing = measured.selfIntersections;
+    if (crossing.before + crossing.after > 0)
+        out << "  pairs of faces that cross: " << crossing.before << " before, " << crossing.after
+            << " after; faces in new ones: " << crossing.newFaces << '\n';
     for (const std::string &w : run.engine.warnings)
         out << "  note: " << w << '\n';
 }

@@ -26,7 +26,7 @@ struct RunSummary {
 std::string WriteReport(const Options &options, const RunSummary &run);
 
 /// Prints quality before and after as a table, and the warnings.
-void PrintTable(std::ostream &out, const RunSummary &run);
+void PrintTable(std::ostream &out, const RunSummary &run, const vcg::tri::MeshComparison &measured);
 
 } // namespace ccdm_remesh
 

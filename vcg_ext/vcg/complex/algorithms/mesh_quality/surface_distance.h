@@ -298,7 +298,7 @@ public:
 
     /// Root mean square over `samples` points in equal strides of the area, placed in their triangles by a
     /// low-discrepancy sequence; maximum over these, over the vertices, and over the triangles where
-    /// either comes near it, which are searched to 1% of it.
+    /// either comes near it, which are searched to 0.1% of it.
     Deviation Measure(int samples)
     {
         const double squares = Sample(samples);
@@ -392,7 +392,7 @@ private:
         const Vector middle = (a + b + c) / 3.0;
         const double radius =
             std::sqrt(std::max({(a - middle).SquaredNorm(), (b - middle).SquaredNorm(), (c - middle).SquaredNorm()}));
-        if (std::sqrt(Query(middle)) + radius <= 1.01 * std::sqrt(_largest))
+        if (std::sqrt(Query(middle)) + radius <= 1.001 * std::sqrt(_largest))
             return;
         const Vector ab = (a + b) / 2.0, bc = (b + c) / 2.0, ca = (c + a) / 2.0;
         Search(a, ab, ca, depth - 1);
