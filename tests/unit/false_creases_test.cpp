@@ -100,6 +100,19 @@ TEST(FalseCreases, NoiseOnASphereHasNone)
     EXPECT_EQ(k.droppedEdges, k.before);
 }
 
+TEST(FalseCreases, WhatIsLongerThanTheSpacingIsNoNoise)
+{
+    // A crumpled ball: a fourth of its edges turn by more than 40 degrees.
+    shapes::Shape s = shapes::Sphere(3); // edges of about 0.15
+    shapes::AddNoise(s, 0.06);
+    const Kept coarser = Creases(s, 40, 0.3), finer = Creases(s, 40, 0.0375);
+    EXPECT_GT(coarser.before, 500);
+    EXPECT_EQ(coarser.after, 0);
+    // Of the turns between 40 and 60 degrees most are of the surface and no creases.
+    EXPECT_GT(finer.after, 0.2 * finer.before);
+    EXPECT_LT(finer.after, 0.6 * finer.before);
+}
+
 TEST(FalseCreases, CreasesUnderNoiseStay)
 {
     // A finely meshed box with noise a twentieth of its edges: the twelve creases of twenty edges or so.

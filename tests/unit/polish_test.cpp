@@ -119,6 +119,27 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
 }
 
+TEST(ExtremeCapture, APartThatIsMissingMayHaveSmallerAngles)
+{
+    // A sphere with a vertex lifted by 1.6 spacings, and a remesh that is round there.
+    constexpr double height = 0.12;
+    constexpr int lifted = 20;
+    shapes::Shape s = shapes::Sphere(4);
+    for (double &x : s.points[lifted])
+        x *= 1 + height;
+    const Model model = meshes::MakeModel(s, 2562, 180);
+    Remesh r = meshes::AsRemesh(model);
+    const Point tip = r.position[lifted];
+    const auto [face, foot] = model.surface.Project(r.place[lifted].face, tip, tip / (1 + height), 0);
+    r.position[lifted] = foot.point;
+    r.place[lifted].face = face;
+    Probes probes(model, r, meshes::Alone());
+    // On the tip the angles are 30 degrees.
+    const std::vector<int> captured = ExtremeCapture(model, r, probes).Run(5, 50);
+    ASSERT_EQ(captured.size(), 1U);
+    EXPECT_EQ(Norm(r.position[captured[0]] - tip), 0);
+}
+
 TEST(ExtremeCapture, TakesWhatLooksFarOnlyFromTheWrongSheetForNear)
 {
     // Every probe of a mesh that holds all vertices of the input is at distance zero, however crumpled that is.

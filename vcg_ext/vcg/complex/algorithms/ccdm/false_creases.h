@@ -16,16 +16,17 @@ namespace vcg {
 namespace ccdm {
 
 /// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if it
-/// stands out from the turns of the other edges around it, if the surface turns there at the scale of the
-/// wanted mesh too, and only in company: as part of a connected set of such edges that is several spacings
-/// long. Where there is no roughness that it could be part of, a smaller scale will do: a hole of a clean part that is
-/// narrower than the spacing keeps its rim. Boundaries and marked edges always stay.
+/// stands out from the turns of the other edges around it, or turns by half as much again and is longer than the
+/// spacing, for noise is finer than that; if the surface turns there at the scale of the wanted mesh too; and only in
+/// company: as part of a connected set of such edges that is several spacings long. Where there is no roughness that it
+/// could be part of, a smaller scale will do: a hole of a clean part that is narrower than the spacing keeps its rim.
+/// Boundaries and marked edges always stay.
 class FalseCreases
 {
 public:
     FalseCreases(ReferenceSurface &surface, const std::vector<double> &spacing, const SideMarks &marked, double degrees)
         : _surface(surface), _mesh(surface.mesh), _spacing(spacing), _marked(marked), _turn(Share * degrees * Pi / 180),
-          _normal(FaceNormals(surface)), _stamp(surface.FaceCount(), -1)
+          _sharp(Sharp * degrees * Pi / 180), _normal(FaceNormals(surface)), _stamp(surface.FaceCount(), -1)
     {
     }
 
@@ -47,7 +48,8 @@ public:
             const double turn = Turn(s);
             const auto turns = [&](double radius) { return TurnsWithin(radius * h, s, ++tick); };
             const bool clean = around < Smooth && turn < Folded;
-            if (point || (turn > Prominence * around && (turns(Radius) || (clean && turns(SmoothRadius)))))
+            const bool standsOut = turn > Prominence * around || (turn > _sharp && Length(s) > h);
+            if (point || (standsOut && (turns(Radius) || (clean && turns(SmoothRadius)))))
                 kept.push_back(s);
             else
                 _mesh.SetConstrained(s, false);
@@ -64,8 +66,11 @@ public:
 private:
     static constexpr double Prominence = 4.5; // of a crease's turn over the mean turn of the other edges around it
     static constexpr int RoughnessRounds = 3; // of averaging over the neighbours
-    static constexpr double Share = 0.7;      // of the feature angle, that the mean normals have to differ by
-    static constexpr double Radius = 1.0;     // of the neighbourhood, in spacings
+    // Of the feature angle, for edges longer than the spacing. Measured on coarse inputs: with less, twisted bands get
+    // creases across; with 1.9, the edges of models of few faces are cut off and their thin parts fold.
+    static constexpr double Sharp = 1.5;
+    static constexpr double Share = 0.7;  // of the feature angle, that the mean normals have to differ by
+    static constexpr double Radius = 1.0; // of the neighbourhood, in spacings
     // The same where the other edges turn by less than so many radians, and the crease by less than the last: what is
     // folded back is none. Details that are much finer make triangles that are no use.
     static constexpr double SmoothRadius = 0.25, Smooth = 0.02, Folded = 2.6;
@@ -79,7 +84,7 @@ private:
     Triangulation &_mesh;
     const std::vector<double> &_spacing;
     const SideMarks &_marked;
-    const double _turn;
+    const double _turn, _sharp;
     const std::vector<Point> _normal;
     std::vector<int> _stamp;
     int _dropped = 0;
@@ -92,6 +97,8 @@ private:
 
     bool Marked(Side s) const { return !_marked.empty() && ((_marked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0; }
     Point Middle(Side s) const { return (_surface.position[_mesh.Tail(s)] + _surface.position[_mesh.Head(s)]) / 2; }
+
+    double Length(Side s) const { return Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]); }
 
     double Turn(Side s) const { return TurnBetween(_normal[SideTriangle(s)], NormalAcross(_mesh, _normal, s)); }
 
@@ -193,8 +200,7 @@ private:
             sets.Join(_mesh.Tail(s), _mesh.Head(s));
         std::vector<double> length(_mesh.VertexCount(), 0);
         for (const Side s : crease)
-            length[sets.SetOf(_mesh.Tail(s))] +=
-                Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]) / _spacing[_mesh.Tail(s)];
+            length[sets.SetOf(_mesh.Tail(s))] += Length(s) / _spacing[_mesh.Tail(s)];
         std::vector<char> shortSet(_mesh.VertexCount(), 0);
         int dropped = 0;
         for (const Side s : crease) {

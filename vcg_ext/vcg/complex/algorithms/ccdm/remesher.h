@@ -112,7 +112,7 @@ private:
             if (passed && coarse && remesh.VertexCount() > params.vertexCount)
                 passed = Fail(Status::CheckFailed, "the coarse level has too many vertices");
             if (passed && coarse && level.MayLackParts(remesh, MinAngle(params)) &&
-                !SecondAttempt(model, params, remesh))
+                !SecondAttempt(model, params, level, remesh))
                 return false;
             if (passed) {
                 Offset(model, remesh);
@@ -162,14 +162,14 @@ private:
                                    " cannot do with fewer than " + std::to_string(least));
     }
 
-    // Without the coarse level, which can lose thin parts: the result is taken if its smallest angle is the
-    // larger one. False when it was cancelled.
-    bool SecondAttempt(Model &model, const Params &params, Remesh &remesh)
+    // Without the coarse level, which can lose thin parts: the result is taken if it has more of them. False when it
+    // was cancelled.
+    bool SecondAttempt(Model &model, const Params &params, const CoarseLevel &level, Remesh &remesh)
     {
         Report report = _report;
         Remesh other;
         const bool passed = Attempt(model, params, false, other);
-        if (passed && CoarseLevel::SmallestFreeAngle(other) > CoarseLevel::SmallestFreeAngle(remesh)) {
+        if (passed && level.HasMoreParts(other, remesh)) {
             remesh = std::move(other);
             return true;
         }
