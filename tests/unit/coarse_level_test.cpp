@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/coarse_level.h>
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/meshes.h"
@@ -10,21 +12,47 @@ namespace {
 
 using namespace vcg::ccdm;
 
+// A strip of triangles whose middles lie `depth` spacings below the surface.
+Remesh Sunk(const Model &model, double depth)
+{
+    Remesh r;
+    const double h = model.density.spacing[0];
+    // An equilateral triangle whose corners lie on the sphere and whose middle is `depth` spacings below it.
+    const double z = 1 - depth * h, radius = std::sqrt(1 - z * z);
+    for (int k = 0; k < 3; ++k) {
+        const double angle = 2 * Pi * k / 3;
+        r.position.push_back(Point(radius * std::cos(angle), radius * std::sin(angle), z));
+        r.place.emplace_back();
+        double nearest = 1e300;
+        for (int t = 0; t < model.surface.FaceCount(); ++t) {
+            const double d = model.surface.NearestOn(t, r.position.back()).squaredDistance;
+            if (d < nearest) {
+                nearest = d;
+                r.place.back().face = t;
+            }
+        }
+    }
+    r.rho.assign(3, 1);
+    r.mesh.Build(3, {{0, 1, 2}});
+    return r;
+}
+
 TEST(CoarseLevel, ATriangleAcrossAGapTellsThatPartsAreLost)
 {
-    const Model model = meshes::MakeModel(shapes::Sphere(4), 2562, 180);
+    const Model model = meshes::MakeModel(shapes::Sphere(5), 500, 180);
     const CoarseLevel level(model);
-    const Remesh whole = meshes::AsRemesh(model);
-    EXPECT_FALSE(level.MayLackParts(whole, 0));
-    // One vertex on the far side: its triangles lead through the ball.
-    Remesh across = whole;
-    across.position[0] = -whole.position[0];
-    for (int v = 0; v < whole.VertexCount(); ++v)
-        if (Norm(whole.position[v] - across.position[0]) < 1e-9)
-            across.place[0].face = whole.place[v].face;
-    EXPECT_TRUE(level.MayLackParts(across, 0));
-    EXPECT_TRUE(level.HasMoreParts(whole, across));
-    EXPECT_FALSE(level.HasMoreParts(across, whole));
+    EXPECT_FALSE(level.MayLackParts(Sunk(model, 0.6), 0));
+    EXPECT_TRUE(level.MayLackParts(Sunk(model, 0.8), 0));
+}
+
+TEST(CoarseLevel, FewerGapsCountForMoreThanAngles)
+{
+    const Model model = meshes::MakeModel(shapes::Sphere(5), 500, 180);
+    const CoarseLevel level(model);
+    const Remesh gap = Sunk(model, 0.8), none = Sunk(model, 0.4);
+    EXPECT_TRUE(level.IsSurpassed(gap, none, 40));
+    EXPECT_FALSE(level.IsSurpassed(none, gap, 40));
+    EXPECT_FALSE(level.IsSurpassed(gap, gap, 40)) << "no less, and no small angle";
 }
 
 TEST(CoarseLevel, ASmallAngleTellsThatPartsAreLost)
@@ -34,14 +62,14 @@ TEST(CoarseLevel, ASmallAngleTellsThatPartsAreLost)
     const Remesh whole = meshes::AsRemesh(model);
     EXPECT_FALSE(level.MayLackParts(whole, 40));
     EXPECT_TRUE(level.MayLackParts(whole, 59));
+    // Half way to one of its neighbours.
     Remesh worse = whole;
-    worse.position[0] = (whole.position[0] + whole.position[whole.mesh.triangle[whole.mesh.incident[0]].v[0] == 0
-                                                                ? whole.mesh.triangle[whole.mesh.incident[0]].v[1]
-                                                                : whole.mesh.triangle[whole.mesh.incident[0]].v[0]]) /
-                        2;
+    const Triangle &T = whole.mesh.triangle[whole.mesh.incident[0]];
+    const int neighbour = T.v[Next(T.IndexOf(0))];
+    worse.position[0] = (whole.position[0] + whole.position[neighbour]) / 2;
     EXPECT_TRUE(level.MayLackParts(worse, 40));
-    EXPECT_TRUE(level.HasMoreParts(whole, worse));
-    EXPECT_FALSE(level.HasMoreParts(worse, whole));
+    EXPECT_TRUE(level.IsSurpassed(worse, whole, 40));
+    EXPECT_FALSE(level.IsSurpassed(whole, worse, 40));
 }
 
 } // namespace

@@ -100,9 +100,9 @@ TEST(FalseCreases, NoiseOnASphereHasNone)
     EXPECT_EQ(k.droppedEdges, k.before);
 }
 
-TEST(FalseCreases, WhatIsLongerThanTheSpacingIsNoNoise)
+// A crumpled ball: a fourth of its edges turn by more than 40 degrees, and none stands out.
+TEST(FalseCreases, SharpEdgesLongerThanTheSpacingStay)
 {
-    // A crumpled ball: a fourth of its edges turn by more than 40 degrees.
     shapes::Shape s = shapes::Sphere(3); // edges of about 0.15
     shapes::AddNoise(s, 0.06);
     const Kept coarser = Creases(s, 40, 0.3), finer = Creases(s, 40, 0.0375);
@@ -111,6 +111,15 @@ TEST(FalseCreases, WhatIsLongerThanTheSpacingIsNoNoise)
     // Of the turns between 40 and 60 degrees most are of the surface and no creases.
     EXPECT_GT(finer.after, 0.2 * finer.before);
     EXPECT_LT(finer.after, 0.6 * finer.before);
+}
+
+TEST(FalseCreases, FacetsOfSmoothSurfacesAreNone)
+{
+    shapes::Shape s = shapes::Sphere(2); // its edges turn by 8 to 11 degrees and are longer than the spacing
+    shapes::AddNoise(s, 0.01);
+    const Kept k = Creases(s, 8, 0.085);
+    EXPECT_GT(k.before, 300);
+    EXPECT_EQ(k.after, 0);
 }
 
 TEST(FalseCreases, CreasesUnderNoiseStay)

@@ -126,6 +126,35 @@ TEST(MeshQuality, DistanceOfParallelSheets)
     EXPECT_EQ(vcg::tri::MeshQuality<MeshD>::Distance(a, a, 5000).hausdorff, 0);
 }
 
+TEST(DeviationMeter, FindsAPitInAPlateau)
+{
+    // Everywhere nearly as far as at the furthest place, in each of 128 faces.
+    for (const double gap : {0.02, 0.05, 0.1}) {
+        const auto soup = [](const shapes::Shape &s) {
+            vcg::tri::TriangleSoup r;
+            for (const shapes::P &p : s.points)
+                r.point.push_back({p[0], p[1], p[2]});
+            for (const shapes::F &f : s.faces)
+                r.face.push_back({f[0], f[1], f[2]});
+            return r;
+        };
+        const vcg::tri::TriangleSoup plate = soup(shapes::FlatGrid(8));
+        vcg::tri::TriangleSoup pitted = soup(shapes::FlatGrid(300));
+        constexpr double x0 = 0.46, y0 = 0.54;
+        for (auto &p : pitted.point)
+            p[2] = gap * (1 + 0.3 * std::max(0.0, 1 - std::hypot(p[0] - x0, p[1] - y0) / 0.012));
+        const vcg::tri::TriangleTree tree(pitted);
+        double furthest = 0;
+        int hint = -1;
+        for (int i = -100; i <= 100; ++i)
+            for (int j = -100; j <= 100; ++j)
+                furthest = std::max(furthest, tree.SquaredDistance({x0 + 2e-4 * i, y0 + 2e-4 * j, 0}, hint));
+        furthest = std::sqrt(furthest);
+        ASSERT_GT(furthest, 1.002 * gap);
+        EXPECT_GE(vcg::tri::DeviationMeter(plate, tree).Measure(3000).max, 0.999 * furthest) << gap;
+    }
+}
+
 TEST(MeshQuality, DistanceIsTheLargerDirection)
 {
     // A sheet against its left half: the far edge is 0.5 away one way only.

@@ -54,24 +54,20 @@ public:
     }
 
     /// Whether the result may lack thin parts, which the coarse level can lose: an angle is smaller than it should
-    /// leave of `target`, in degrees, or a triangle spans a gap. Next to creases that are close together the target is
-    /// often out of reach, with and without a coarse level.
+    /// leave of `target`, in degrees, or a triangle spans a gap.
     bool MayLackParts(const Remesh &remesh, double target) const
     {
-        if (SpansGap(remesh))
-            return true;
-        const std::vector<FeatureCurve> &curve = _model.features.curve;
-        const bool creases =
-            std::any_of(curve.begin(), curve.end(), [&](const FeatureCurve &c) { return !c.OnBoundary(_reference); });
-        const double least = target - AngleSlack;
-        return SmallestFreeAngle(remesh) < (creases ? std::min(least, AngleAtCreases) : least);
+        return HasSmallAngle(remesh, target) || GapsSpanned(remesh) > 0;
     }
 
-    /// Whether `other` has parts that `remesh` lacks; where neither spans a gap, or both do, the smallest angle tells.
-    bool HasMoreParts(const Remesh &other, const Remesh &remesh) const
+    /// Whether `other`, made without the coarse level, is to be taken in place of `remesh`, with it: it spans half the
+    /// gaps at most, or no other number and has a larger smallest angle, which was small.
+    bool IsSurpassed(const Remesh &remesh, const Remesh &other, double target) const
     {
-        const bool spans = SpansGap(remesh);
-        return spans == SpansGap(other) ? SmallestFreeAngle(other) > SmallestFreeAngle(remesh) : spans;
+        const int gaps = GapsSpanned(remesh), left = GapsSpanned(other);
+        if (gaps > 0)
+            return 2 * left <= gaps;
+        return left == 0 && HasSmallAngle(remesh, target) && SmallestFreeAngle(other) > SmallestFreeAngle(remesh);
     }
 
 private:
@@ -90,26 +86,51 @@ private:
     const Model &_model;
     const Triangulation &_reference;
 
-    // Whether the middle of a triangle lies far off the surface around its corners: what it joins are two parts.
-    bool SpansGap(const Remesh &remesh) const
+    // Next to creases that are close together the target is often out of reach, with and without a coarse level.
+    bool HasSmallAngle(const Remesh &remesh, double target) const
+    {
+        const std::vector<FeatureCurve> &curve = _model.features.curve;
+        const bool creases =
+            std::any_of(curve.begin(), curve.end(), [&](const FeatureCurve &c) { return !c.OnBoundary(_reference); });
+        const double least = target - AngleSlack;
+        return SmallestFreeAngle(remesh) < (creases ? std::min(least, AngleAtCreases) : least);
+    }
+
+    // The triangles whose middle lies far off the surface around their corners: what they join are two parts.
+    int GapsSpanned(const Remesh &remesh) const
     {
         const std::vector<Triangle> &all = remesh.mesh.triangle;
-        return std::any_of(all.begin(), all.end(), [&](const Triangle &T) {
-            const std::vector<Point> &x = remesh.position;
-            const Point middle = (x[T.v[0]] + x[T.v[1]] + x[T.v[2]]) / 3;
-            bool free = false;
-            for (const int v : T.v) {
-                const Place &place = remesh.place[v];
-                const double gap = Gap * _model.density.spacing[_reference.triangle[place.face].v[0]];
-                // A corner is a point of the surface: most triangles are too small to span anything.
-                if (SquaredNorm(middle - x[v]) < gap * gap ||
-                    (place.kind == VertexKind::Free &&
-                     _model.surface.Project(place.face, x[v], middle, 0).second.squaredDistance < gap * gap))
-                    return false;
-                free = free || place.kind == VertexKind::Free;
-            }
-            return free;
-        });
+        return static_cast<int>(
+            std::count_if(all.begin(), all.end(), [&](const Triangle &T) { return SpansGap(remesh, T); }));
+    }
+
+    bool SpansGap(const Remesh &remesh, const Triangle &T) const
+    {
+        const std::vector<Point> &x = remesh.position;
+        const Point middle = (x[T.v[0]] + x[T.v[1]] + x[T.v[2]]) / 3;
+        bool free = false;
+        for (const int v : T.v) {
+            const Place &place = remesh.place[v];
+            const double gap = Gap * Spacing(place.face);
+            // The corner itself is a point of the surface: nearly all triangles are too small to span anything.
+            if (SquaredNorm(middle - x[v]) < gap * gap)
+                return false;
+            // Those of features are at home on one side of them.
+            if (place.kind != VertexKind::Free)
+                continue;
+            free = true;
+            if (_model.surface.Project(place.face, x[v], middle, 0).second.squaredDistance < gap * gap)
+                return false;
+        }
+        return free;
+    }
+
+    // The largest at the corners of a face of the reference surface.
+    double Spacing(int face) const
+    {
+        const std::vector<double> &h = _model.density.spacing;
+        const Triangle &T = _reference.triangle[face];
+        return std::max({h[T.v[0]], h[T.v[1]], h[T.v[2]]});
     }
 
     // In degrees, of the triangles that no feature touches.

@@ -25,9 +25,8 @@ public:
 
     /// Finds the probes furthest from the remesh, those beyond `outlier` times the root mean square
     /// distance, and moves a free vertex onto each, with those around making room, if no angle under `minAngle`
-    /// degrees (or 25, for a part that is cut off) comes about that was not there, no edge gets too sharp, and nothing
-    /// else around gets further away.
-    /// Returns the vertices that now sit on a tip.
+    /// degrees (or 25, for what is more than a spacing away) comes about that was not there, no edge gets too sharp,
+    /// and nothing else around gets further away. Returns the vertices that now sit on a tip.
     std::vector<int> Run(double outlier, double minAngle)
     {
         _probe.Find();
@@ -69,8 +68,8 @@ private:
     static constexpr double CutOff = 0.45;
     static constexpr double TurnCosineLimit = -0.17364817766693033;   // of 100 degrees
     static constexpr double SharperCosineLimit = -0.6427876096865394; // of 130 degrees
-    /// One that is cut off by more than so many may get an angle of 25 degrees, whatever is asked for. Measured: the
-    /// last vertex of a horn or a finger costs an angle of 30 to 39 degrees and takes away a third of the largest
+    /// One that is cut off by more than so many may get an angle of 25 degrees, even if more is asked for. Measured:
+    /// the last vertex of a horn or a finger costs an angle of 30 to 39 degrees and takes away a third of the largest
     /// distance; from 0.7 spacings on it would cost such angles on statues too, and with 15 degrees thin wings fold.
     static constexpr double PartOff = 1;
     static constexpr double PartCosineLimit = 0.9063077870366499;

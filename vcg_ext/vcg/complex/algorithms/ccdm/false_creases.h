@@ -16,17 +16,18 @@ namespace vcg {
 namespace ccdm {
 
 /// Tells noise from creases. An edge that turns by more than the feature angle stays a feature only if it
-/// stands out from the turns of the other edges around it, or turns by half as much again and is longer than the
-/// spacing, for noise is finer than that; if the surface turns there at the scale of the wanted mesh too; and only in
-/// company: as part of a connected set of such edges that is several spacings long. Where there is no roughness that it
-/// could be part of, a smaller scale will do: a hole of a clean part that is narrower than the spacing keeps its rim.
-/// Boundaries and marked edges always stay.
+/// stands out from the turns of the other edges around it, or is sharp and longer than the spacing, which noise rarely
+/// is; if the surface turns there at the scale of the wanted mesh too; and only in company: as part of a connected set
+/// of such edges that is several spacings long. Where there is no roughness that it could be part of, a smaller scale
+/// will do: a hole of a clean part that is narrower than the spacing keeps its rim. Boundaries and marked edges always
+/// stay.
 class FalseCreases
 {
 public:
     FalseCreases(ReferenceSurface &surface, const std::vector<double> &spacing, const SideMarks &marked, double degrees)
         : _surface(surface), _mesh(surface.mesh), _spacing(spacing), _marked(marked), _turn(Share * degrees * Pi / 180),
-          _sharp(Sharp * degrees * Pi / 180), _normal(FaceNormals(surface)), _stamp(surface.FaceCount(), -1)
+          _sharp(std::max(Sharp * degrees, LeastSharp) * Pi / 180), _normal(FaceNormals(surface)),
+          _stamp(surface.FaceCount(), -1)
     {
     }
 
@@ -44,7 +45,7 @@ public:
             const double around = (rough[_mesh.Tail(s)] + rough[_mesh.Head(s)]) / 2;
             // An edge between two vertices at one place has no direction; it goes on with a crease or hangs loose.
             const bool point = _surface.position[_mesh.Tail(s)] == _surface.position[_mesh.Head(s)];
-            const double h = _spacing[_mesh.Tail(s)];
+            const double h = (_spacing[_mesh.Tail(s)] + _spacing[_mesh.Head(s)]) / 2;
             const double turn = Turn(s);
             const auto turns = [&](double radius) { return TurnsWithin(radius * h, s, ++tick); };
             const bool clean = around < Smooth && turn < Folded;
@@ -66,9 +67,10 @@ public:
 private:
     static constexpr double Prominence = 4.5; // of a crease's turn over the mean turn of the other edges around it
     static constexpr int RoughnessRounds = 3; // of averaging over the neighbours
-    // Of the feature angle, for edges longer than the spacing. Measured on coarse inputs: with less, twisted bands get
-    // creases across; with 1.9, the edges of models of few faces are cut off and their thin parts fold.
-    static constexpr double Sharp = 1.5;
+    // What an edge turns by that is sharp: so many times the feature angle, and so many degrees at least, as small ones
+    // are common on smooth surfaces of few faces. Measured on such models: with less, twisted bands get creases across;
+    // with 1.9 times, edges are cut off and thin parts fold.
+    static constexpr double Sharp = 1.5, LeastSharp = 60;
     static constexpr double Share = 0.7;  // of the feature angle, that the mean normals have to differ by
     static constexpr double Radius = 1.0; // of the neighbourhood, in spacings
     // The same where the other edges turn by less than so many radians, and the crease by less than the last: what is

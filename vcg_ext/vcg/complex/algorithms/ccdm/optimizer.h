@@ -84,7 +84,7 @@ public:
                 if (Transplant(_model, _remesh).Run(target, MostTransplants))
                     _schedule.Changed();
             },
-            // What else can be captured without an angle below the target.
+            // What else can be captured without an angle below the target, unless it is a part of the shape.
             [&] { ExtremeCapture(_model, _remesh, _probes).Run(FurtherTip, target); },
             [&] { LevelChords(target); },
         };

@@ -169,7 +169,7 @@ private:
         Report report = _report;
         Remesh other;
         const bool passed = Attempt(model, params, false, other);
-        if (passed && level.HasMoreParts(other, remesh)) {
+        if (passed && level.IsSurpassed(remesh, other, MinAngle(params))) {
             remesh = std::move(other);
             return true;
         }

@@ -30,7 +30,7 @@ public:
     {
     }
 
-    /// The maximum is searched to 1 percent.
+    /// The maximum is searched as DeviationMeter does.
     double Measure(const MeshTables &mesh, Workers &workers) const
     {
         const tri::TriangleSoup other = _frame.Place({mesh.position, mesh.face});
