@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's few lines on other remeshers, from PEERS.md's summary. bench_peers.py writes them, and so does a run
+"""The README's few lines on other remeshers, from PEERS.md's tables. bench_peers.py writes them, and so does a run
 of this file; a test compares the two pages."""
 import re
 import statistics
@@ -15,22 +15,22 @@ README = HERE.parents[1] / "README.md"
 BEGIN, END = "<!-- peers: written by tests/bench/peers_in_readme.py -->", "<!-- peers: end -->"
 HEAD = ("CCDM", "average smallest angle", "best other's", "fastest other's time / ours",
         "Hausdorff at most the best's", "RMS at most the best's")
-FIGURES = ("fastest peer's / ours", "least Hausdorff / ours", "least RMS / ours", "our angle", "best peer's")
+FIGURES = ("fastest peer's / ours", "our angle", "best peer's")
+DISTANCES = ("Hausdorff at most", "RMS at most")  # with yes and no
 
 
 def is_number(text):
     return re.fullmatch(r"\d+\.?\d*", text) is not None
 
 
-def summary(page):
-    """{mode: the rows of its summary that have figures, by the names of the columns}; of equal names the first."""
-    part = page.split("\n## Summary\n")[1].split("\n## ")[0]
+def tables(page, section):
+    """{mode: the rows of its table in a section, by the names of the columns}; of equal names the first."""
+    part = page.split(f"\n## {section}\n")[1].split("\n## ")[0]
     found = {}
     for text in part.split("\n### ")[1:]:
         head, _, *rows = [[cell.strip() for cell in line.strip("|").split(" | ")]
                           for line in text.splitlines() if line.startswith("|")]
-        named = [dict(reversed(list(zip(head, row)))) for row in rows]
-        found[text.splitlines()[0]] = [row for row in named if all(is_number(row[name]) for name in FIGURES)]
+        found[text.splitlines()[0]] = [dict(reversed(list(zip(head, row)))) for row in rows]
     return found
 
 
@@ -38,19 +38,23 @@ def spread(values, digits):
     return f"{min(values):.{digits}f} to {max(values):.{digits}f}"
 
 
-def row(mode, rows):
+def row(mode, figures, verdicts):
     def column(name):
-        return [float(r[name]) for r in rows]
-    times, hausdorff, rms, ours, others = map(column, FIGURES)
+        return [float(r[name]) for r in figures if all(is_number(r[figure]) for figure in FIGURES)]
+
+    def met(name):
+        said = [r[name] for r in verdicts if "yes" in r[name] or "no" in r[name]]
+        return f"{sum('yes' in word for word in said)} of {len(said)}"
+    times, ours, others = map(column, FIGURES)
     return [mode.removeprefix("CCDM, "), spread(ours, 1), spread(others, 1),
-            f"{spread(times, 2)}, median {statistics.median(times):.2f}",
-            *(f"{sum(x >= 1 for x in ratios)} of {len(rows)}" for ratios in (hausdorff, rms))]
+            f"{spread(times, 2)}, median {statistics.median(times):.2f}", *map(met, DISTANCES)]
 
 
 def lines(page):
     """The table, and where it is from."""
     stamp = " ".join(page.split("\n\n")[1].split()).split(". That command")[0]
-    rows = [row(mode, rows) for mode, rows in summary(page).items()]
+    verdicts = tables(page, "Conclusions")
+    rows = [row(mode, figures, verdicts[mode]) for mode, figures in tables(page, "Summary").items()]
     text = (f"Each cell over all models; angles in degrees. From {stamp}; that command writes "
             "[tests/bench/PEERS.md](tests/bench/PEERS.md), where each model and each remesher is, and this table.")
     return ["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD),
