@@ -39,13 +39,11 @@ def spread(values, digits):
 
 
 def row(mode, figures, verdicts):
-    def column(name):
-        return [float(r[name]) for r in figures if all(is_number(r[figure]) for figure in FIGURES)]
-
     def met(name):
         said = [r[name] for r in verdicts if "yes" in r[name] or "no" in r[name]]
         return f"{sum('yes' in word for word in said)} of {len(said)}"
-    times, ours, others = map(column, FIGURES)
+    known = [[r[name] for name in FIGURES] for r in figures]
+    times, ours, others = zip(*([float(x) for x in r] for r in known if all(map(is_number, r))))
     return [mode.removeprefix("CCDM, "), spread(ours, 1), spread(others, 1),
             f"{spread(times, 2)}, median {statistics.median(times):.2f}", *map(met, DISTANCES)]
 

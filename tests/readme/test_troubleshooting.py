@@ -41,7 +41,7 @@ def given_distance(remesh, _):
 
 def close_features(remesh, _):
     few = remesh("plate.ply", "-n", 600)
-    assert below(few, "close_features", "thin_part") > 0.75 * below(few) > 0
+    assert below(few, "close_features", "thin_part") > 0.85 * below(few) > 0
     wanted = max(place["vertices"] for place in few["narrow"]["places"])
     assert below(remesh("plate.ply", "-n", 2 * int(wanted)), "close_features", "thin_part") == 0
 

@@ -12,12 +12,11 @@ namespace {
 
 using namespace vcg::ccdm;
 
-// A strip of triangles whose middles lie `depth` spacings below the surface.
+// An equilateral triangle whose corners lie on the unit sphere and whose middle is `depth` spacings below it.
 Remesh Sunk(const Model &model, double depth)
 {
     Remesh r;
     const double h = model.density.spacing[0];
-    // An equilateral triangle whose corners lie on the sphere and whose middle is `depth` spacings below it.
     const double z = 1 - depth * h, radius = std::sqrt(1 - z * z);
     for (int k = 0; k < 3; ++k) {
         const double angle = 2 * Pi * k / 3;
@@ -50,9 +49,9 @@ TEST(CoarseLevel, FewerGapsCountForMoreThanAngles)
     const Model model = meshes::MakeModel(shapes::Sphere(5), 500, 180);
     const CoarseLevel level(model);
     const Remesh gap = Sunk(model, 0.8), none = Sunk(model, 0.4);
-    EXPECT_TRUE(level.IsSurpassed(gap, none, 40));
-    EXPECT_FALSE(level.IsSurpassed(none, gap, 40));
-    EXPECT_FALSE(level.IsSurpassed(gap, gap, 40)) << "no less, and no small angle";
+    EXPECT_TRUE(level.IsSurpassed(gap, none));
+    EXPECT_FALSE(level.IsSurpassed(none, gap));
+    EXPECT_FALSE(level.IsSurpassed(gap, gap)) << "no fewer";
 }
 
 TEST(CoarseLevel, ASmallAngleTellsThatPartsAreLost)
@@ -68,8 +67,8 @@ TEST(CoarseLevel, ASmallAngleTellsThatPartsAreLost)
     const int neighbour = T.v[Next(T.IndexOf(0))];
     worse.position[0] = (whole.position[0] + whole.position[neighbour]) / 2;
     EXPECT_TRUE(level.MayLackParts(worse, 40));
-    EXPECT_TRUE(level.IsSurpassed(worse, whole, 40));
-    EXPECT_FALSE(level.IsSurpassed(whole, worse, 40));
+    EXPECT_TRUE(level.IsSurpassed(worse, whole));
+    EXPECT_FALSE(level.IsSurpassed(whole, worse));
 }
 
 } // namespace

@@ -157,7 +157,7 @@ TEST(AddedSampler, StartsARunOfTheOptimiser)
         EXPECT_TRUE(optimizer.Run(0, [](double) { return true; }));
         EXPECT_TRUE(optimizer.Close([](double) { return true; }));
         ExpectSound(s, n);
-        EXPECT_GT(AverageSmallestAngle(s.remesh), 53.5);
+        EXPECT_GT(AverageSmallestAngle(s.remesh), 53.9);
     }
 }
 

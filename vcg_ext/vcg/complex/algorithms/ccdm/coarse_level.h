@@ -57,17 +57,21 @@ public:
     /// leave of `target`, in degrees, or a triangle spans a gap.
     bool MayLackParts(const Remesh &remesh, double target) const
     {
-        return HasSmallAngle(remesh, target) || GapsSpanned(remesh) > 0;
+        // Next to creases that are close together the target is often out of reach, with and without a coarse level.
+        const std::vector<FeatureCurve> &curve = _model.features.curve;
+        const bool creases =
+            std::any_of(curve.begin(), curve.end(), [&](const FeatureCurve &c) { return !c.OnBoundary(_reference); });
+        const double least = target - AngleSlack;
+        return SmallestFreeAngle(remesh) < (creases ? std::min(least, AngleAtCreases) : least) ||
+               GapsSpanned(remesh) > 0;
     }
 
-    /// Whether `other`, made without the coarse level, is to be taken in place of `remesh`, with it: it spans half the
-    /// gaps at most, or no other number and has a larger smallest angle, which was small.
-    bool IsSurpassed(const Remesh &remesh, const Remesh &other, double target) const
+    /// Whether `other`, made without the coarse level, is to be taken in place of `remesh`, with it, which may lack
+    /// parts: it spans half the gaps at most or, where there are none, has a larger smallest angle.
+    bool IsSurpassed(const Remesh &remesh, const Remesh &other) const
     {
         const int gaps = GapsSpanned(remesh), left = GapsSpanned(other);
-        if (gaps > 0)
-            return 2 * left <= gaps;
-        return left == 0 && HasSmallAngle(remesh, target) && SmallestFreeAngle(other) > SmallestFreeAngle(remesh);
+        return gaps > 0 ? 2 * left <= gaps : left == 0 && SmallestFreeAngle(other) > SmallestFreeAngle(remesh);
     }
 
 private:
@@ -85,16 +89,6 @@ private:
 
     const Model &_model;
     const Triangulation &_reference;
-
-    // Next to creases that are close together the target is often out of reach, with and without a coarse level.
-    bool HasSmallAngle(const Remesh &remesh, double target) const
-    {
-        const std::vector<FeatureCurve> &curve = _model.features.curve;
-        const bool creases =
-            std::any_of(curve.begin(), curve.end(), [&](const FeatureCurve &c) { return !c.OnBoundary(_reference); });
-        const double least = target - AngleSlack;
-        return SmallestFreeAngle(remesh) < (creases ? std::min(least, AngleAtCreases) : least);
-    }
 
     // The triangles whose middle lies far off the surface around their corners: what they join are two parts.
     int GapsSpanned(const Remesh &remesh) const

@@ -33,8 +33,7 @@ inline double VerticesForEdgeLength(const ReferenceSurface &surface, const std::
         for (int e = 0; e < 3; ++e) {
             const Side s = MakeSide(t, e);
             if (m.Mate(s) == NoSide)
-                boundary += Norm(surface.position[m.Tail(s)] - surface.position[m.Head(s)]) *
-                            (root[m.Tail(s)] + root[m.Head(s)]) / 2;
+                boundary += surface.EdgeLength(s) * (root[m.Tail(s)] + root[m.Head(s)]) / 2;
         }
     // In units of the local spacing.
     boundary *= std::sqrt(std::sqrt(3.0) * inner / (2 * total));

@@ -49,7 +49,7 @@ public:
             const double turn = Turn(s);
             const auto turns = [&](double radius) { return TurnsWithin(radius * h, s, ++tick); };
             const bool clean = around < Smooth && turn < Folded;
-            const bool standsOut = turn > Prominence * around || (turn > _sharp && Length(s) > h);
+            const bool standsOut = turn > Prominence * around || (turn > _sharp && _surface.EdgeLength(s) > h);
             if (point || (standsOut && (turns(Radius) || (clean && turns(SmoothRadius)))))
                 kept.push_back(s);
             else
@@ -99,8 +99,6 @@ private:
 
     bool Marked(Side s) const { return !_marked.empty() && ((_marked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0; }
     Point Middle(Side s) const { return (_surface.position[_mesh.Tail(s)] + _surface.position[_mesh.Head(s)]) / 2; }
-
-    double Length(Side s) const { return Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]); }
 
     double Turn(Side s) const { return TurnBetween(_normal[SideTriangle(s)], NormalAcross(_mesh, _normal, s)); }
 
@@ -202,7 +200,7 @@ private:
             sets.Join(_mesh.Tail(s), _mesh.Head(s));
         std::vector<double> length(_mesh.VertexCount(), 0);
         for (const Side s : crease)
-            length[sets.SetOf(_mesh.Tail(s))] += Length(s) / _spacing[_mesh.Tail(s)];
+            length[sets.SetOf(_mesh.Tail(s))] += _surface.EdgeLength(s) / _spacing[_mesh.Tail(s)];
         std::vector<char> shortSet(_mesh.VertexCount(), 0);
         int dropped = 0;
         for (const Side s : crease) {

@@ -246,11 +246,6 @@ private:
         return !_rules.locked.empty() && ((_rules.locked[SideTriangle(s)] >> SideEdge(s)) & 1) != 0;
     }
 
-    double EdgeLength(Side s) const
-    {
-        return Norm(_surface.position[_mesh.Tail(s)] - _surface.position[_mesh.Head(s)]);
-    }
-
     // Walks from a loose end until the chain ends or meets others; unmarks it if it is short. A removed
     // chain may leave another loose end, which is looked at in turn.
     void Prune()
@@ -283,7 +278,7 @@ private:
                 if (next == NoSide)
                     break;
                 chain.push_back(next);
-                length += EdgeLength(next);
+                length += _surface.EdgeLength(next);
                 removable = Removable(next) && length < _spacing[end];
                 v = to;
             } while (removable && degree[v] == 2 && v != end);
@@ -312,7 +307,7 @@ private:
             used[3 * static_cast<std::size_t>(SideTriangle(step.side)) + SideEdge(step.side)] = 1;
             c.side.push_back(step.side);
             c.vertex.push_back(step.vertex);
-            c.arc.push_back(c.arc.back() + EdgeLength(step.side));
+            c.arc.push_back(c.arc.back() + _surface.EdgeLength(step.side));
             const int w = step.vertex;
             if (_isCorner[w] || w == v)
                 break;

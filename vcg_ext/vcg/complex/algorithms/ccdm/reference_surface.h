@@ -36,6 +36,7 @@ public:
     }
 
     int FaceCount() const { return mesh.TriangleCount(); }
+    double EdgeLength(Side s) const { return Norm(position[mesh.Tail(s)] - position[mesh.Head(s)]); }
     Point AreaVector(int face) const
     {
         const Point &a = Corner(face, 0);

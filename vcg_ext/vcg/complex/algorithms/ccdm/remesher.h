@@ -162,14 +162,13 @@ private:
                                    " cannot do with fewer than " + std::to_string(least));
     }
 
-    // Without the coarse level, which can lose thin parts: the result is taken if it has more of them. False when it
-    // was cancelled.
+    // Without the coarse level, which can lose thin parts. False when it was cancelled.
     bool SecondAttempt(Model &model, const Params &params, const CoarseLevel &level, Remesh &remesh)
     {
         Report report = _report;
         Remesh other;
         const bool passed = Attempt(model, params, false, other);
-        if (passed && level.IsSurpassed(remesh, other, MinAngle(params))) {
+        if (passed && level.IsSurpassed(remesh, other)) {
             remesh = std::move(other);
             return true;
         }

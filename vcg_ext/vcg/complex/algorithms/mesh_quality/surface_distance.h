@@ -304,7 +304,8 @@ public:
     Deviation Measure(int samples)
     {
         const double squares = Sample(samples);
-        Refine(std::min(MostQueries, QueriesPerSample * samples));
+        _queriesLeft = std::min(MostQueries, QueriesPerSample * samples);
+        Refine();
         return {std::sqrt(_largest), samples > 0 ? std::sqrt(squares / samples) : 0};
     }
 
@@ -315,18 +316,19 @@ private:
     std::vector<float> _faceMax; // largest squared distance seen in each face
     double _largest = 0;
     int _hint = -1;
+    long long _queriesLeft = 0; // of the search
 
     /// A part of a face that may hold a larger distance than the largest so far.
     struct Part {
         double distance; // of its middle
         double radius;   // of the vertices from the middle
-        long long number;
+        long long left;  // queries, when it was looked at: among equals the earlier ones come first
         Vector a, b, c;
 
         // Those further away come first, then the larger ones: a plateau is searched evenly.
         bool operator<(const Part &other) const
         {
-            return std::tie(distance, radius, number) < std::tie(other.distance, other.radius, other.number);
+            return std::tie(distance, radius, left) < std::tie(other.distance, other.radius, other.left);
         }
     };
     std::priority_queue<Part> _open;
@@ -383,7 +385,7 @@ private:
         return squares;
     }
 
-    void Refine(long long queries)
+    void Refine()
     {
         std::vector<std::pair<float, int>> near;
         for (std::size_t t = 0; t < _faceMax.size(); ++t)
@@ -393,10 +395,10 @@ private:
             return x.first != y.first ? x.first > y.first : x.second < y.second;
         });
         auto face = near.begin();
-        while (queries > 0 && (face != near.end() || !_open.empty())) {
+        while (_queriesLeft > 0 && (face != near.end() || !_open.empty())) {
             if (face != near.end() && (_open.empty() || std::sqrt(face->first) >= _open.top().distance)) {
                 const auto &f = _surface.face[(face++)->second];
-                Search(_surface.point[f[0]], _surface.point[f[1]], _surface.point[f[2]], queries--);
+                Search(_surface.point[f[0]], _surface.point[f[1]], _surface.point[f[2]]);
                 continue;
             }
             const Part part = _open.top();
@@ -404,23 +406,22 @@ private:
             if (!MayHoldMore(part))
                 continue;
             const Vector ab = (part.a + part.b) / 2.0, bc = (part.b + part.c) / 2.0, ca = (part.c + part.a) / 2.0;
-            Search(part.a, ab, ca, queries--);
-            Search(part.b, bc, ab, queries--);
-            Search(part.c, ca, bc, queries--);
-            Search(ab, bc, ca, queries--);
+            Search(part.a, ab, ca);
+            Search(part.b, bc, ab);
+            Search(part.c, ca, bc);
+            Search(ab, bc, ca);
         }
     }
 
     // The distance changes by no more than the way.
     bool MayHoldMore(const Part &part) const { return part.distance + part.radius > Tolerance * std::sqrt(_largest); }
 
-    // `number` falls from call to call.
-    void Search(const Vector &a, const Vector &b, const Vector &c, long long number)
+    void Search(const Vector &a, const Vector &b, const Vector &c)
     {
         const Vector middle = (a + b + c) / 3.0;
         const double radius =
             std::sqrt(std::max({(a - middle).SquaredNorm(), (b - middle).SquaredNorm(), (c - middle).SquaredNorm()}));
-        const Part part = {std::sqrt(Query(middle)), radius, number, a, b, c};
+        const Part part = {std::sqrt(Query(middle)), radius, _queriesLeft--, a, b, c};
         if (MayHoldMore(part))
             _open.push(part);
     }
