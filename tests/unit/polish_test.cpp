@@ -37,7 +37,7 @@ TEST(Polish, RaisesTheSmallestAngle)
         relocator.Sweep(Perturbation{0.4, random.Bits()});
     const double before = SmallestAngle(r);
     ASSERT_LT(before, 25);
-    EXPECT_EQ(Polish(model, r).RaiseAngles(34, 0.1, 40), 0);
+    EXPECT_EQ(Polish(model, r, meshes::Alone()).RaiseAngles(34, 0.1, 40), 0);
     EXPECT_GE(SmallestAngle(r), 34 - 1e-6);
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
 }
@@ -53,7 +53,7 @@ TEST(Polish, LeavesPinnedVerticesWhereTheyAre)
     for (int v = 0; v < r.VertexCount(); v += 5)
         pinned.push_back(v);
     const std::vector<Point> before = r.position;
-    Polish polish(model, r);
+    Polish polish(model, r, meshes::Alone());
     polish.Pin(pinned);
     const int left = polish.RaiseAngles(34, 0.1, 40);
     int moved = 0;
@@ -84,7 +84,7 @@ TEST(Polish, OpensAFold)
         }
     ASSERT_GT(ResultCheck(model, r).foldedEdges, 0);
     EXPECT_NE(ResultCheck(model, r).fault, "") << "a fold on a plane must not pass";
-    EXPECT_EQ(Polish(model, r).Unfold(20), 0);
+    EXPECT_EQ(Polish(model, r, meshes::Alone()).Unfold(20), 0);
     EXPECT_EQ(ResultCheck(model, r).foldedEdges, 0);
     EXPECT_EQ(ResultCheck(model, r).fault, "");
 }
@@ -170,7 +170,7 @@ TEST(Polish, GivesUpOnWhatCannotBeHelped)
     const Model model = meshes::MakeModel(shapes::RoundTorus(200, 6, 0.01), 100, 180);
     Remesh r = meshes::AsRemesh(model);
     const std::vector<Point> before = r.position;
-    Polish polish(model, r);
+    Polish polish(model, r, meshes::Alone());
     EXPECT_GT(polish.RaiseAngles(40, 0.1, 20), 1000);
     int moved = 0;
     for (std::size_t v = 0; v < before.size(); ++v)
@@ -190,7 +190,7 @@ TEST(Polish, ShakesWhatNoSmallMoveHelpsAndSpoilsNothing)
             relocator.Sweep(Perturbation{0.5, 100 * seed + i});
             DelaunayFlipper(meshes::Alone()).Run(r);
         }
-        Polish polish(model, r);
+        Polish polish(model, r, meshes::Alone());
         if (polish.RaiseAngles(40, 0.2, 20) == 0)
             continue;
         ++left;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/refinement.h>
 
+#include <algorithm>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -111,12 +113,39 @@ TEST(Refinement, LeavesNoMoreThanItMay)
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
 }
 
+TEST(Refinement, SplitsTheLongestEdgesWhereverTheyAre)
+{
+    // Twenty runs of triangles are looked through apart.
+    const Model model = meshes::MakeModel(shapes::Sphere(6), 40962, 180);
+    Workers two(2);
+    std::vector<Point> position[2];
+    for (int k = 0; k < 2; ++k) {
+        Remesh r = meshes::AsRemesh(model);
+        Relocator(model, r).Sweep(Perturbation{0.3, 1});
+        std::vector<double> squared;
+        r.mesh.VisitEdges(
+            [&](Side s) { squared.push_back(SquaredNorm(r.position[r.mesh.Head(s)] - r.position[r.mesh.Tail(s)])); });
+        std::nth_element(squared.begin(), squared.begin() + 9, squared.end(), std::greater<>());
+        const double tenth = squared[9];
+        Refinement(model, r).SplitLongest(10, k == 0 ? meshes::Alone() : two);
+        ASSERT_EQ(r.VertexCount(), 40962 + 10);
+        int left = 0;
+        r.mesh.VisitEdges([&](Side s) {
+            left += r.mesh.Tail(s) < 40962 && r.mesh.Head(s) < 40962 &&
+                    SquaredNorm(r.position[r.mesh.Head(s)] - r.position[r.mesh.Tail(s)]) >= tenth;
+        });
+        EXPECT_EQ(left, 0);
+        position[k] = r.position;
+    }
+    EXPECT_EQ(position[0], position[1]);
+}
+
 TEST(Refinement, SplitsAndSorts)
 {
     const Model model = meshes::MakeModel(shapes::Bumpy(3), 642, 180);
     Remesh r = meshes::AsRemesh(model);
     Refinement refinement(model, r);
-    refinement.SplitLongest(3);
+    refinement.SplitLongest(3, meshes::Alone());
     EXPECT_EQ(r.VertexCount(), 645);
     refinement.Sort();
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");

@@ -238,7 +238,7 @@ TEST(Relocator, AscendFollowsTheGradientAndRaisesTheScore)
         ++v;
     const double before = Norm(r.position[v] - target);
     const Point start = r.position[v];
-    const auto nearness = [&](const LocalStar &, const Point &q, Point *gradient) {
+    const auto nearness = [&](const LocalStar &, const Point &q, Point *gradient, double) {
         const Point d = target - start - q;
         if (gradient != nullptr)
             *gradient += d;
@@ -251,7 +251,7 @@ TEST(Relocator, AscendFollowsTheGradientAndRaisesTheScore)
         EXPECT_LT(Norm(moved.position[v] - target), before);
         EXPECT_GT(Dot(moved.position[v] - start, target - start), 0.99 * Norm(moved.position[v] - start) * before);
         // Down the same slope it does not go.
-        const auto slope = [](const LocalStar &, const Point &q, Point *gradient) {
+        const auto slope = [](const LocalStar &, const Point &q, Point *gradient, double) {
             if (gradient != nullptr)
                 *gradient += Point(1, 0, 0);
             return -SquaredNorm(q);

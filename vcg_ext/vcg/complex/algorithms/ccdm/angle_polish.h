@@ -46,7 +46,7 @@ inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &
 template <class Weight>
 double SmallestAngleAt(const LocalStar &star, int k, Point &gradient, const Weight &weight)
 {
-    const int next = star.After(k);
+    const int next = k + 1;
     const Point &u = star.spoke[k], &w = star.spoke[next];
     const double uu = star.squared[k], ww = star.squared[next], uw = SquaredNorm(w - u);
     const double angle = SmallestAngle(uw, ww, uu);
@@ -84,12 +84,12 @@ private:
     PerWorker<Relocator> _relocator;
 
     // Sum of the smallest angles of the star with its centre at q.
-    static double Sum(const LocalStar &s, const Point &q, Point *gradient)
+    static double Sum(const LocalStar &s, const Point &q, Point *gradient, double /*wanted*/)
     {
         double sum = 0;
         for (int k = 0; k < s.triangles; ++k)
             sum += gradient != nullptr ? SmallestAngleAt(s, k, *gradient, [](double) { return 1.0; })
-                                       : SmallestAngle(q, s.spoke[k], s.spoke[s.After(k)]);
+                                       : SmallestAngle(q, s.spoke[k], s.spoke[k + 1]);
         return sum;
     }
 

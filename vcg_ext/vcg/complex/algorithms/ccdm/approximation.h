@@ -34,6 +34,7 @@ public:
         if (!(weight > 0) || triangles == 0)
             return;
         _stray.assign(triangles, 0);
+        _middle.assign(3 * static_cast<std::size_t>(triangles), 0);
         _active.assign(_remesh.VertexCount(), 1);
         double size = 0.12;
         for (int round = 0; round < rounds; ++round, size *= 0.8) {
@@ -82,6 +83,7 @@ private:
     PerWorker<std::array<int, MostProbes>> _watched; // probes of the star at hand
     PerWorker<std::vector<Anchor>> _anchor;          // points of the surface next to its samples
     std::vector<double> _stray;                      // of each triangle: mean squared distance of its samples
+    std::vector<float> _middle;                      // of each side: squared distance of its middle, if it measured it
     std::vector<std::uint8_t> _active;
     double _mean = 0;    // of the squared distances
     double _weight = 0;  // of a squared distance
@@ -97,15 +99,21 @@ private:
         return free(a) || !(free(b) || free(c)) ? a : free(b) ? b : c;
     }
 
-    // The centroid counts as much as the middles of two sides, each of which two triangles share.
-    double Stray(int t) const
+    bool MayHaveChanged(int t) const
     {
         const Triangle &T = _remesh.mesh.triangle[t];
-        const Point &a = _remesh.position[T.v[0]], &b = _remesh.position[T.v[1]], &c = _remesh.position[T.v[2]];
-        const int home = Home(T.v[0], T.v[1], T.v[2]);
-        return 0.4 * SquaredDistance(home, (a + b + c) / 3) +
-               0.2 * (SquaredDistance(home, (a + b) / 2) + SquaredDistance(home, (b + c) / 2) +
-                      SquaredDistance(home, (c + a) / 2));
+        return _active[T.v[0]] != 0 || _active[T.v[1]] != 0 || _active[T.v[2]] != 0;
+    }
+
+    float &MiddleOf(Side s) { return _middle[3 * static_cast<std::size_t>(SideTriangle(s)) + SideEdge(s)]; }
+
+    // Of the two sides of an edge, the one whose triangle measures it for both: off the features, where they see the
+    // same surface.
+    Side Measurer(Side s) const
+    {
+        const Side mate = _remesh.mesh.Mate(s);
+        return mate == NoSide || _remesh.mesh.Constrained(s) || s < mate || !MayHaveChanged(SideTriangle(mate)) ? s
+                                                                                                                : mate;
     }
 
     // The chords of features cannot be mended and do not count, if there are other triangles.
@@ -142,15 +150,30 @@ private:
 
     double CostSlope(double d) const { return 1 + std::max(0.0, d - _outlier) / _mean; }
 
-    // Only what may have changed.
+    // Only what may have changed. The centroid counts as much as the middles of two sides, each of which two triangles
+    // share.
     void Measure()
     {
-        Chunks::For(_workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int) {
-            for (int t = first; t < last; ++t) {
-                const Triangle &T = _remesh.mesh.triangle[t];
-                if (_active[T.v[0]] != 0 || _active[T.v[1]] != 0 || _active[T.v[2]] != 0)
-                    _stray[t] = Stray(t);
-            }
+        const auto changed = [&](const auto &visit) {
+            Chunks::For(_workers, _remesh.mesh.TriangleCount(), [&](int first, int last, int) {
+                for (int t = first; t < last; ++t)
+                    if (MayHaveChanged(t))
+                        visit(t);
+            });
+        };
+        changed([&](int t) {
+            const Triangle &T = _remesh.mesh.triangle[t];
+            const int home = Home(T.v[0], T.v[1], T.v[2]);
+            const auto at = [&](int i) -> const Point & { return _remesh.position[T.v[i]]; };
+            _stray[t] = 0.4 * SquaredDistance(home, (at(0) + at(1) + at(2)) / 3);
+            for (int e = 0; e < 3; ++e)
+                if (Measurer(MakeSide(t, e)) == MakeSide(t, e))
+                    MiddleOf(MakeSide(t, e)) =
+                        static_cast<float>(SquaredDistance(home, (at(Next(e)) + at(Prev(e))) / 2));
+        });
+        changed([&](int t) {
+            for (int e = 0; e < 3; ++e)
+                _stray[t] += 0.2 * MiddleOf(Measurer(MakeSide(t, e)));
         });
     }
 
@@ -158,15 +181,19 @@ private:
 
     void Activate()
     {
+        const auto look = [&](int first, int last, std::vector<int> &found) {
+            for (int t = first; t < last; ++t) {
+                bool far = _stray[t] > Cut * _mean;
+                for (int k = _probe.First(t); k < _probe.First(t + 1) && !far; ++k)
+                    far = Far(_probe.Owned(k));
+                if (far)
+                    found.push_back(t);
+            }
+        };
         std::fill(_active.begin(), _active.end(), 0);
-        for (int t = 0; t < _remesh.mesh.TriangleCount(); ++t) {
-            bool far = _stray[t] > Cut * _mean;
-            for (int k = _probe.First(t); k < _probe.First(t + 1) && !far; ++k)
-                far = Far(_probe.Owned(k));
-            if (far)
-                for (const int v : _remesh.mesh.triangle[t].v)
-                    _active[v] = 1;
-        }
+        for (const int t : Chunks::CollectList<int>(_workers, _remesh.mesh.TriangleCount(), look))
+            for (const int v : _remesh.mesh.triangle[t].v)
+                _active[v] = 1;
     }
 
     // The farthest probes of the star of v; -1 ends the list.
@@ -202,24 +229,20 @@ private:
                 *gradient -= (p - foot.point) * (0.8 * _weight * share * CostSlope(foot.squaredDistance));
             return Cost(foot.squaredDistance);
         };
-        const auto score = [&](const LocalStar &star, const Point &q, Point *gradient) {
+        const auto score = [&](const LocalStar &star, const Point &q, Point *gradient, double wanted) {
             if (anchor.empty())
                 for (int k = 0; k < star.triangles; ++k) {
-                    const int home = Home(v, star.id[k], star.id[star.After(k)]);
+                    const int home = Home(v, star.id[k], star.id[k + 1]);
                     anchor.insert(anchor.end(), 2, {_remesh.place[home].face, _remesh.position[home]});
                 }
             double sum = 0;
             for (int k = 0; k < star.triangles; ++k) {
-                const Point &a = star.spoke[k], &b = star.spoke[star.After(k)];
                 const double angle =
                     gradient != nullptr
                         ? SmallestAngleAt(star, k, *gradient,
                                           [](double smallest) { return smallest < LowAngle ? 3.0 : 1.0; })
-                        : SmallestAngle(q, a, b);
+                        : SmallestAngle(q, star.spoke[k], star.spoke[k + 1]);
                 sum += angle - 2 * std::max(0.0, LowAngle - angle);
-                sum -= 0.4 * _weight *
-                       (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) +
-                        stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));
             }
             for (const int r : watched)
                 if (r >= 0) {
@@ -230,6 +253,13 @@ private:
                         *gradient +=
                             (p - foot.point) * (2 * _weight * foot.weight[0] * CostSlope(foot.squaredDistance));
                 }
+            // These cost most, and only lower the sum.
+            for (int k = 0; k < star.triangles && sum > wanted; ++k) {
+                const Point &a = star.spoke[k], &b = star.spoke[k + 1];
+                sum -= 0.4 * _weight *
+                       (stray(2 * k, x + (q + a + b) / 3, 1.0 / 3, gradient) +
+                        stray(2 * k + 1, x + (q + a) / 2, 0.5, gradient));
+            }
             return sum;
         };
         _relocator[worker].Ascend(v, size, score, false);
@@ -240,7 +270,7 @@ private:
         Foot nearest;
         nearest.squaredDistance = 1e300;
         for (int k = 0; k < star.triangles; ++k) {
-            const Foot foot = NearestOnTriangle(q, star.spoke[k] - q, star.spoke[star.After(k)] - q, p);
+            const Foot foot = NearestOnTriangle(q, star.spoke[k] - q, star.spoke[k + 1] - q, p);
             if (foot.squaredDistance < nearest.squaredDistance)
                 nearest = foot;
         }

@@ -16,7 +16,7 @@ namespace ccdm {
 inline double TriangleMass(const Remesh &remesh, bool uniform, const LocalStar &star, int v, int k)
 {
     const double area = Norm(star.cross[k]);
-    return uniform ? area : area * (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[star.After(k)]]);
+    return uniform ? area : area * (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[k + 1]]);
 }
 
 /// Centroid of the star, weighted with the density: the paper's relocation (section 2.1, equation 3).
@@ -30,7 +30,7 @@ struct PatchCentroid {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const int next = star.After(k);
+            const int next = k + 1;
             const double m = TriangleMass(remesh, uniform, star, v, k);
             sum += (star.spoke[k] + star.spoke[next]) * m;
             mass += m;
@@ -77,7 +77,7 @@ struct CellCentroid {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const int next = star.After(k);
+            const int next = k + 1;
             const Point &u = star.spoke[k], &w = star.spoke[next];
             const double m2 = SquaredNorm(star.cross[k]);
             if (!(m2 > 0))
@@ -127,7 +127,7 @@ struct MeanCircumcentre {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const Point &u = star.spoke[k], &w = star.spoke[star.After(k)];
+            const Point &u = star.spoke[k], &w = star.spoke[k + 1];
             const double m2 = SquaredNorm(star.cross[k]);
             if (!(m2 > 0))
                 continue;

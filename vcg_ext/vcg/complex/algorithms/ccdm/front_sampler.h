@@ -157,7 +157,7 @@ public:
                 best.swap(found);
                 _bestScale = scale;
             }
-            if (miss <= 2 + count / 100)
+            if (miss <= 2 + count / 50)
                 break;
             scale *= std::sqrt(static_cast<double>(std::max(size, 1)) / count);
         }

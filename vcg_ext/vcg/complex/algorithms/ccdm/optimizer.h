@@ -50,7 +50,7 @@ public:
     /// the surface, and raises the smallest angles. False when `progress` stopped it.
     bool Close(const Progress &progress)
     {
-        Polish polish(_model, _remesh);
+        Polish polish(_model, _remesh, _workers);
         const double target = MinAngle(_params);
         std::vector<int> tips;
         const std::function<void()> step[] = {
@@ -81,7 +81,7 @@ public:
             [&] { polish.RaiseAngles(30, 0.3, 20); },
             [&] { polish.RaiseAngles(30, 1.0, 20); },
             [&] {
-                if (Transplant(_model, _remesh).Run(target, MostTransplants))
+                if (Transplant(_model, _remesh, _workers).Run(target, MostTransplants))
                     _schedule.Changed();
             },
             // What else can be captured without an angle below the target, unless it is a part of the shape.
@@ -195,7 +195,7 @@ private:
         return true;
     }
 
-    // Twice the budget for the coarse level, where a sweep is cheap; a part of it for what is refined from it.
+    // More than the budget for the coarse level, where a sweep is cheap; a part of it for what is refined from it.
     bool AccelerateByLevels(int finer, const Progress &progress)
     {
         const int count = GlobalIterations(_params) * _params.localIterations;
@@ -209,11 +209,11 @@ private:
         const double share = coarseWork / (coarseWork + static_cast<double>(second) * finer);
         if (!Accelerate(first, 0.5 * _params.lambda, 0, 0.9 * share, progress))
             return false;
-        Polish(_model, _remesh).Unfold(10);
+        Polish(_model, _remesh, _workers).Unfold(10);
         Refinement refinement(_model, _remesh);
         refinement.Run(_workers, finer);
-        refinement.SplitLongest(finer - _remesh.VertexCount());
-        Polish(_model, _remesh).Unfold(10);
+        refinement.SplitLongest(finer - _remesh.VertexCount(), _workers);
+        Polish(_model, _remesh, _workers).Unfold(10);
         Rearrange(refinement);
         return Accelerate(second, FineNoise * _params.lambda, 0.9 * share, 0.9, progress) && Settle(progress);
     }
@@ -226,7 +226,7 @@ private:
         const int lacking = (vertices - refinement.CountAfter()) / 4;
         if (lacking <= 0)
             return;
-        refinement.SplitLongest(lacking);
+        refinement.SplitLongest(lacking, _workers);
         Rearrange(refinement);
     }
 
@@ -286,7 +286,7 @@ private:
 
     // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time; more at the
     // coarse level raise them where the surface has no features, by 0.1 degrees.
-    static constexpr double CoarseShare = 2, FineShare = 0.3, FineNoise = 0.25;
+    static constexpr double CoarseShare = 2.15, FineShare = 0.33, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     /// Tips further off than so many root mean square distances are captured, first and at last. Measured: with 5 at
     /// first the largest distances are 8 % larger; with 4 at last noisy surfaces lose 0.1 degrees for 2 %.

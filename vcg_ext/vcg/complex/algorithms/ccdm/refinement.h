@@ -68,7 +68,7 @@ public:
     }
 
     /// Adds vertices in the middle of the longest edges, for the spacing there, that are no features.
-    void SplitLongest(int count)
+    void SplitLongest(int count, Workers &workers)
     {
         if (count <= 0)
             return;
@@ -79,20 +79,26 @@ public:
         const auto longer = [](const Edge &a, const Edge &b) {
             return std::tie(b.length, a.tail, a.head) < std::tie(a.length, b.tail, b.head);
         };
-        // A heap of the longest so far, the shortest of them on top.
-        std::vector<Edge> longest;
         const Triangulation &m = _remesh.mesh;
-        m.VisitEdges([&](Side s) {
-            if (m.Constrained(s))
-                return;
-            longest.push_back({SquaredLength(s), m.Tail(s), m.Head(s)});
-            std::push_heap(longest.begin(), longest.end(), longer);
-            if (static_cast<int>(longest.size()) > count) {
-                std::pop_heap(longest.begin(), longest.end(), longer);
-                longest.pop_back();
-            }
-        });
-        std::sort_heap(longest.begin(), longest.end(), longer);
+        // Of each run of triangles a heap of the longest so far, the shortest of them on top.
+        const auto look = [&](int first, int last, std::vector<Edge> &found) {
+            m.VisitEdges(first, last, [&](Side s) {
+                if (m.Constrained(s))
+                    return;
+                const Edge edge = {SquaredLength(s), m.Tail(s), m.Head(s)};
+                if (static_cast<int>(found.size()) == count) {
+                    if (!longer(edge, found.front()))
+                        return;
+                    std::pop_heap(found.begin(), found.end(), longer);
+                    found.pop_back();
+                }
+                found.push_back(edge);
+                std::push_heap(found.begin(), found.end(), longer);
+            });
+        };
+        std::vector<Edge> longest = Chunks::CollectList<Edge>(workers, m.TriangleCount(), look);
+        std::sort(longest.begin(), longest.end(), longer);
+        longest.resize(std::min(longest.size(), static_cast<std::size_t>(count)));
         Workers alone(1);
         for (const Edge &edge : longest) {
             const Side s = m.FindEdge(edge.tail, edge.head);

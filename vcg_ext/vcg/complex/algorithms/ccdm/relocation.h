@@ -12,7 +12,8 @@ namespace vcg {
 namespace ccdm {
 
 /// The star of a vertex with geometry: what a relocation rule sees. Positions are relative to the
-/// vertex; triangle k lies between spokes k and After(k). The arrays are as long as the largest star so far.
+/// vertex; triangle k lies between spokes k and k + 1, of which the last is the first one again if the star is closed.
+/// The arrays are as long as the largest star so far.
 struct LocalStar {
     int triangles = 0;
     int spokes = 0;
@@ -28,7 +29,6 @@ struct LocalStar {
     Point normal = {0, 0, 0};      ///< sum of the cross products
     double radius = 0;             ///< mean length of the spokes
 
-    int After(int k) const { return closed && k + 1 == triangles ? 0 : k + 1; }
     bool Wall(int k) const { return walled && wall[k] != 0; }
 };
 
@@ -99,22 +99,23 @@ public:
     }
 
     /// One step of an ascent: moves v by `size` times its mean edge length along the gradient of a score, or by a part
-    /// of that, if the score rises by that. score(star, position relative to v, gradient) adds to the gradient unless
-    /// it is null. `cheapScore`: to find the surface costs more than the score; a step of a free vertex that gains
-    /// nothing in the tangent plane, nor half of it, is not tried on the surface.
+    /// of that, if the score rises by that. score(star, position relative to v, gradient, wanted) adds to the gradient
+    /// unless it is null, and may return anything that is not above `wanted` if the score is not. `cheapScore`: to find
+    /// the surface costs more than the score; a step of a free vertex that gains nothing in the tangent plane, nor half
+    /// of it, is not tried on the surface.
     template <class Score>
     bool Ascend(int v, double size, const Score &score, bool cheapScore)
     {
         Gather(v);
         Point g(0, 0, 0);
-        const double before = score(_star, Point(0, 0, 0), &g);
+        const double before = score(_star, Point(0, 0, 0), &g, -1e300), wanted = before + 1e-9;
         const double n2 = SquaredNorm(_star.normal);
         if (n2 > 0 && _remesh.place[v].kind == VertexKind::Free)
             g -= _star.normal * (Dot(_star.normal, g) / n2);
         const double length = Norm(g);
         if (!(length > 0))
             return false;
-        const auto gains = [&](const Point &q) { return score(_star, q, nullptr) > before + 1e-9; };
+        const auto gains = [&](const Point &q) { return score(_star, q, nullptr, wanted) > wanted; };
         Point step = g * (size * _star.radius / length);
         if (cheapScore && _remesh.place[v].kind == VertexKind::Free && !gains(step)) {
             step *= 0.5;
@@ -170,11 +171,15 @@ private:
             s.cross.resize(s.spoke.size());
             s.squared.resize(s.spoke.size());
         }
+        if (s.closed) {
+            s.id[s.spokes] = s.id[0];
+            s.spoke[s.spokes] = s.spoke[0];
+        }
         // Sums in locals: in the star, each addition would wait for the last one to be stored.
         Point normal(0, 0, 0);
         double radius = 0;
         for (int k = 0; k < s.triangles; ++k) {
-            const Point cross = Cross(s.spoke[k], s.spoke[s.After(k)]);
+            const Point cross = Cross(s.spoke[k], s.spoke[k + 1]);
             s.cross[k] = cross;
             normal += cross;
         }
@@ -183,6 +188,8 @@ private:
             s.squared[k] = squared;
             radius += std::sqrt(squared);
         }
+        if (s.closed)
+            s.squared[s.spokes] = s.squared[0];
         s.normal = normal;
         s.radius = radius / s.spokes;
     }
@@ -190,7 +197,7 @@ private:
     void TakeRing(int v, const Triangulation::Ring &ring)
     {
         LocalStar &s = _star;
-        Reserve(Triangulation::MostInRing);
+        Reserve(Triangulation::MostInRing + 1);
         const Point x = _remesh.position[v];
         int k = 0, marks = 0;
         for (; k < Triangulation::MostInRing && ring[k] >= 0; ++k) {
@@ -457,7 +464,7 @@ private:
         Point here = _star.spoke[0] - move;
         double scale = SquaredNorm(_star.normal);
         for (int k = 0; k < _star.triangles && all; ++k) {
-            const Point next = _star.spoke[_star.After(k)] - move, c = Cross(here, next);
+            const Point next = _star.spoke[k + 1] - move, c = Cross(here, next);
             const Point &sector = sectors ? _sector[k] : _star.normal;
             if (sectors)
                 scale = SquaredNorm(sector);
@@ -469,7 +476,7 @@ private:
             return true;
         double after = 1, before = 1;
         for (int k = 0; k < _star.triangles; ++k) {
-            const Point c = Cross(_star.spoke[k] - move, _star.spoke[_star.After(k)] - move);
+            const Point c = Cross(_star.spoke[k] - move, _star.spoke[k + 1] - move);
             after = std::min(after, Facing(c, sectors ? _sector[k] : _star.normal));
         }
         for (int k = 0; k < _star.triangles; ++k)

@@ -17,7 +17,9 @@ namespace ccdm {
 class Transplant
 {
 public:
-    Transplant(const Model &model, Remesh &remesh) : _model(model), _remesh(remesh) {}
+    Transplant(const Model &model, Remesh &remesh, Workers &workers) : _model(model), _remesh(remesh), _workers(workers)
+    {
+    }
 
     /// Aims at `degrees` for the triangles that touch no feature; at most `places` vertices are moved. Vertices and
     /// triangles may be renumbered. Returns whether anything changed.
@@ -49,6 +51,7 @@ private:
 
     const Model &_model;
     Remesh &_remesh;
+    Workers &_workers;
 
     bool Free(int v) const { return _remesh.place[v].kind == VertexKind::Free; }
 
@@ -95,12 +98,12 @@ private:
                     rest.push_back(v);
             Refinement refinement(_model, _remesh);
             refinement.Renumber(rest);
-            refinement.SplitLongest(1);
+            refinement.SplitLongest(1, _workers);
             _remesh.mesh.KeepRings();
             const int added = _remesh.VertexCount() - 1;
             RelaxAround(stays - (stays > gone ? 1 : 0));
             RelaxAround(added);
-            Polish polish(_model, _remesh, Failures);
+            Polish polish(_model, _remesh, _workers, Failures);
             polish.Unfold(10);
             polish.RaiseAngles(degrees, 0.2, 20);
             return added == static_cast<int>(rest.size());

@@ -223,11 +223,17 @@ public:
         }
     }
 
-    /// Calls visit(side) once for every edge, with the side of the lower number.
+    /// Calls visit(side) once for every edge, with the side of the lower number; or for those of them that are sides of
+    /// triangles in [first, last).
     template <class Visit>
     void VisitEdges(const Visit &visit) const
     {
-        for (int t = 0; t < TriangleCount(); ++t)
+        VisitEdges(0, TriangleCount(), visit);
+    }
+    template <class Visit>
+    void VisitEdges(int first, int last, const Visit &visit) const
+    {
+        for (int t = first; t < last; ++t)
             for (int e = 0; e < 3; ++e) {
                 const Side s = MakeSide(t, e);
                 if (Mate(s) == NoSide || s < Mate(s))
