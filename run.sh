@@ -16,7 +16,7 @@ usage: ./run.sh VERB
           bench scaling [--sizes N ...] [--repeats N], bench range [--models M ...],
           bench tradeoffs [--models M ...],
           bench rules [--models M ...] [--parts rules time slope] [--repeats N],
-          bench peers [--models M ...] [--peers WORD ...] [--repeats N]
+          bench peers [--models M ...] [--peers WORD ...] [--repeats N] [--feature-angle DEGREES|own]
   paper   the paper's tables and figures made anew, beside its printed rows: build/paper/index.md;
           [--quick] [--peers WORD ...] [--time-limit SECONDS] [--redraw]
   fuzz SECONDS
@@ -302,6 +302,7 @@ bench() {
         # A remesher that cannot be installed is a row that says so.
         (install_packages "${peer_packages[@]}") || say "not everything that the other remeshers need could be installed"
         /usr/bin/python3 tests/bench/bench_peers.py "${@:2}"
+        [ "$which" = peers ] || /usr/bin/python3 tests/bench/bench_peers.py --feature-angle own
         ;;
     esac
 }

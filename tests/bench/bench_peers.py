@@ -3,10 +3,11 @@
 """The project beside other remeshers, on the same models, one process at a time.
 
 Every process runs on one core. Its time is user + system seconds, reading and writing included, less what
-starting Python and importing a package took; the least of the runs counts. Each remesher gets the feature
-angle that is the command line's default, and a size calibrated until the vertex count is within 3 %. What
-cannot be installed, fails or takes too long is a row with the reason. All results are measured by the
-project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's table.
+starting Python and importing a package took; the least of the runs counts. Each remesher gets the same feature
+angle, that which is the command line's default or each model's own, and a size calibrated until the vertex count is
+within 3 %. What cannot be installed, fails or takes too long is a row with the reason. All results are measured by
+the project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's tables; with
+the models' own angles peers_own_angles.json and PEERS_OWN_ANGLES.md.
 """
 import argparse
 import math
@@ -18,7 +19,7 @@ from collections import namedtuple
 
 import peers_in_readme
 import peers_page
-from common import cases, measure, model, provenance, usage_of, write_figures
+from common import NO_CREASES, OWN_ANGLES, cases, measure, model, provenance, usage_of, write_figures
 from peers import all_peers
 
 FEATURE_ANGLE = 40  # degrees, the command line's default
@@ -133,6 +134,14 @@ def install(peers):
         print(f"{peer.name:<36}{peer.reason or peer.version}", flush=True)
 
 
+def angle(text):
+    return text if text == "own" else float(text)
+
+
+def angle_for(name, wanted):
+    return OWN_ANGLES.get(name, NO_CREASES) if wanted == "own" else wanted
+
+
 def arguments():
     names = [p.name for p in all_peers()]
     models = [name for name, _ in cases()]
@@ -142,8 +151,9 @@ def arguments():
     parser.add_argument("--peers", nargs="+", metavar="WORD",
                         help="the project's default, and those whose name has one of the words: " + "; ".join(names))
     parser.add_argument("--repeats", type=int, default=3, help="runs of each, the least time counts (default 3)")
-    parser.add_argument("--feature-angle", type=float, default=FEATURE_ANGLE,
-                        help=f"of all remeshers, degrees (default {FEATURE_ANGLE}); 180: boundaries only")
+    parser.add_argument("--feature-angle", type=angle, default=FEATURE_ANGLE, metavar="DEGREES|own",
+                        help=f"of all remeshers (default {FEATURE_ANGLE}); {NO_CREASES}: boundaries only; own: at "
+                             "which each model has creases worth keeping")
     return parser.parse_args()
 
 
@@ -155,10 +165,11 @@ def main():
     settings = Settings(options.feature_angle, options.repeats)
     rows = []
     for name, n in cases(options.models):
-        rows += bench_model(name, n, peers, settings)
+        own = settings._replace(feature_angle=angle_for(name, options.feature_angle))
+        rows += [{**row, "feature_angle": own.feature_angle} for row in bench_model(name, n, peers, own)]
     data = {**provenance(" ".join(["./run.sh bench peers", *sys.argv[1:]])), "feature_angle": options.feature_angle,
             "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows}
-    write_figures("peers.json", data)
+    write_figures("peers_own_angles.json" if options.feature_angle == "own" else "peers.json", data)
     peers_page.write(data)
     peers_in_readme.write()
     print("\n".join(peers_page.conclusions(data)))

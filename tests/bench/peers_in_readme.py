@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's few lines on other remeshers, from PEERS.md's tables. bench_peers.py writes them, and so does a run
-of this file; a test compares the two pages."""
+"""The README's few lines on other remeshers, from the tables of PEERS.md and PEERS_OWN_ANGLES.md. bench_peers.py
+writes them, and so does a run of this file; a test compares the pages."""
 import re
 import statistics
 import textwrap
@@ -10,7 +10,8 @@ from pathlib import Path
 from common import put_between
 
 HERE = Path(__file__).resolve().parent
-PAGE = HERE / "PEERS.md"
+PAGES = {"PEERS.md": "at the command line's default feature angle", "PEERS_OWN_ANGLES.md":
+         "at the feature angle at which each model has creases worth keeping, without creases where it has none"}
 README = HERE.parents[1] / "README.md"
 BEGIN, END = "<!-- peers: written by tests/bench/peers_in_readme.py -->", "<!-- peers: end -->"
 HEAD = ("CCDM", "average smallest angle", "best other's", "fastest other's time / ours",
@@ -48,20 +49,26 @@ def row(mode, figures, verdicts):
             f"{spread(times, 2)}, median {statistics.median(times):.2f}", *map(met, DISTANCES)]
 
 
-def lines(page):
-    """The table, and where it is from."""
+def part(name):
+    """The table of one page, and where it is from."""
+    page = (HERE / name).read_text(encoding="utf-8")
     stamp = " ".join(page.split("\n\n")[1].split()).split(". That command")[0]
     verdicts = tables(page, "Conclusions")
     rows = [row(mode, figures, verdicts[mode]) for mode, figures in tables(page, "Summary").items()]
-    text = (f"Each cell over all models; angles in degrees. From {stamp}; that command writes "
-            "[tests/bench/PEERS.md](tests/bench/PEERS.md), where each model and each remesher is, and this table.")
+    text = (f"Each cell over all models, {PAGES[name]}; angles in degrees. From {stamp}; that command writes "
+            f"[tests/bench/{name}](tests/bench/{name}), where each model and each remesher is, and this table.")
     return ["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD),
             *("| " + " | ".join(r) + " |" for r in rows), "",
             *textwrap.wrap(text, 119, break_long_words=False, break_on_hyphens=False)]
 
 
+def lines():
+    first, second = map(part, PAGES)
+    return [*first, "", *second]
+
+
 def write():
-    put_between(README, BEGIN, END, lines(PAGE.read_text(encoding="utf-8")))
+    put_between(README, BEGIN, END, lines())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""PEERS.md and its pictures, from the rows that bench_peers.py measured in one run."""
+"""PEERS.md or PEERS_OWN_ANGLES.md and its pictures, from the rows that bench_peers.py measured in one run."""
 import os
 import statistics
 
@@ -7,7 +7,13 @@ import pages
 from common import HERE
 from pages import paragraph, plain_ticks, plt, save
 
-PAGE = os.path.join(HERE, "PEERS.md")
+PAGE, OWN_PAGE = os.path.join(HERE, "PEERS.md"), os.path.join(HERE, "PEERS_OWN_ANGLES.md")
+FEATURES = """- *Features*: every remesher, ours too, got the feature angle {feature_angle:g} degrees on all models; 40 is
+  the command line's default. Who takes every edge that turns by more for a crease does badly on noise.
+  [PEERS_OWN_ANGLES.md](PEERS_OWN_ANGLES.md) compares at each model's own angle."""
+OWN_FEATURES = ("- *Features*: every remesher, ours too, got the feature angle at which the model has creases worth "
+                "keeping: {angles}. [PEERS.md](PEERS.md) compares at one angle, the command line's default, on all "
+                "models.")
 COLUMNS = ("remesher", "CPU s", "CPU / ours", "start s", "vertices", "average smallest angle", "smallest angle",
            "angles < 30 %", "[FB99] average", "Hausdorff", "RMS", "valence 6 %", "topology")
 TEXTS = ("model", "remesher", "which", "version", "takes", "settings", "state", "topology", "Hausdorff at most",
@@ -157,7 +163,7 @@ def colours(data):
     return {p["name"]: palette[k % len(palette)] for k, p in enumerate(data["peers"])}
 
 
-def draw_quality(data):
+def draw_quality(data, picture):
     """A dot for each model and remesher, and a large one at each remesher's medians."""
     figure, axes = plt.subplots(figsize=(9, 5.5))
     for name, colour in colours(data).items():
@@ -175,10 +181,10 @@ def draw_quality(data):
     axes.set_ylabel("average smallest angle, degrees")
     axes.grid(alpha=0.3)
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1, 0.5))
-    save(figure, "quality.png")
+    save(figure, picture)
 
 
-def draw_histograms(data, names):
+def draw_histograms(data, names, picture):
     """All angles of the project's default and of the three others with the best average."""
     figure, axes = plt.subplots(1, len(names), figsize=(4.2 * len(names), 3.4), squeeze=False)
     for ax, name in zip(axes[0], names):
@@ -194,19 +200,20 @@ def draw_histograms(data, names):
         ax.set_xlabel("angle, degrees")
         ax.legend(fontsize=6)
     axes[0][0].set_ylabel("% of all angles")
-    save(figure, "angles.png")
+    save(figure, picture)
 
 
 def draw(data):
     """The pictures; returns the lines that show those that could be drawn."""
-    draw_quality(data)
-    lines = ["", "![Quality against time](pictures/quality.png)"]
+    suffix = "_own_angles" if data["feature_angle"] == "own" else ""
+    draw_quality(data, f"quality{suffix}.png")
+    lines = ["", f"![Quality against time](pictures/quality{suffix}.png)"]
     shown = [name for name, _ in models_of(data) if reference(data, name) and rivals(data, name)]
     if shown:
         # The first, the middle and the last stand for parts, for small shapes and for large ones.
         picked = list(dict.fromkeys((shown[0], shown[len(shown) // 2], shown[-1])))
-        draw_histograms(data, picked)
-        lines += ["", "![Angles](pictures/angles.png)"]
+        draw_histograms(data, picked, f"angles{suffix}.png")
+        lines += ["", f"![Angles](pictures/angles{suffix}.png)"]
     return lines
 
 
@@ -215,9 +222,7 @@ INTRODUCTION = """Absolute times depend on the machine; the ratios are what coun
 - *Time*: user + system seconds of the whole process on one core, reading and writing included, less the
   seconds ("start") that starting Python and importing a package took. The least of the runs counts
   ({repeats} at most). A run may take {time_limit} s.
-- *Features*: every remesher, ours too, got the feature angle {feature_angle:g} degrees on all models; 40 is the command
-  line's default. Who takes every edge that turns by more for a crease does badly on noise; `--feature-angle
-  180` compares without creases.
+{features}
 - *Size*: who takes an edge length, or does not meet a vertex count, got a size calibrated until the count was
   within 3 %; "off" marks where that could not be had.
 - *Figures*: angles in degrees; Hausdorff and RMS in 1e-3 of the bounding box's diagonal, the larger of both
@@ -230,12 +235,26 @@ SUMMARY = """Ratios above 1: the best of the others needs more time, or is farth
 whose count is off are left out; each column has its own best; † changed the topology."""
 
 
+def features(data):
+    """What the remeshers were told of creases."""
+    if data["feature_angle"] != "own":
+        return FEATURES.format(**data)
+    names = {}
+    for row in data["rows"]:
+        names.setdefault(row["feature_angle"], {})[row["model"]] = None
+    angles = [f"{angle:g} degrees for {', '.join(names[angle])}" for angle in sorted(names)]
+    first, *rest = paragraph(OWN_FEATURES.format(angles="; ".join(angles)))
+    return "\n".join([first, *("  " + line for line in rest)])
+
+
 def write(data):
-    lines = ["# Beside other remeshers", ""] + pages.stamp(data, "this page")
-    lines += ["", INTRODUCTION.format(**data), "## Conclusions", ""]
+    own = data["feature_angle"] == "own"
+    title = "# Beside other remeshers" + (", at each model's own feature angle" if own else "")
+    lines = [title, ""] + pages.stamp(data, "this page")
+    lines += ["", INTRODUCTION.format(features=features(data), **data), "## Conclusions", ""]
     lines += [*pages.paragraph(CONCLUSIONS.format(field=field_of(data))), "", *conclusions_section(data)]
     lines += ["", "## Summary", "", SUMMARY] + summary(data) + draw(data)
     lines += ["", "## Remeshers", ""] + peers_section(data) + ["", "## Models"]
     for name, n in models_of(data):
         lines += model_section(data, name, n)
-    pages.write_page(PAGE, lines)
+    pages.write_page(OWN_PAGE if own else PAGE, lines)
