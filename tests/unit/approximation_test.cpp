@@ -109,6 +109,32 @@ TEST(Approximation, WithoutWeightDoesNothing)
     EXPECT_EQ(r.position, before);
 }
 
+TEST(Approximation, IsTheSameOnTwoThreads)
+{
+    // Several chunks of triangles, whose shared edges are measured once; with features and without.
+    for (const shapes::Shape &s : {shapes::CadPart(), shapes::Bumpy(5)}) {
+        const Model model = meshes::MakeModel(s, 6000, 40);
+        Random random(1);
+        SampleSet samples;
+        samples.onCurves = SampleCurves(model.surface, model.features, model.density);
+        samples.onFaces = SampleFaces(model.surface, model.density, 6000, random);
+        Remesh start;
+        ASSERT_TRUE(InitialMeshBuilder(model, samples).Build(start, [](double) { return true; }));
+        ASSERT_GT(Chunks::Count(start.mesh.TriangleCount()), 2);
+        Workers two(2);
+        std::vector<Point> position[2];
+        for (int k = 0; k < 2; ++k) {
+            Workers &workers = k == 0 ? meshes::Alone() : two;
+            Remesh r = start;
+            Probes probes(model, r, workers);
+            Approximation(model, r, probes, workers).Run(0.05, 4);
+            EXPECT_NE(r.position, start.position);
+            position[k] = r.position;
+        }
+        EXPECT_EQ(position[0], position[1]);
+    }
+}
+
 TEST(SurfaceOffset, SpreadsTheErrorOverBothSides)
 {
     // All chords of a convex surface lie inside; the best offset leaves about a quarter of their error.
