@@ -40,9 +40,10 @@ def given_distance(remesh, _):
 
 
 def close_features(remesh, _):
-    few = remesh("plate.ply", "-n", 600)
-    assert below(few, "close_features", "thin_part") > 0.85 * below(few) > 0
-    wanted = max(place["vertices"] for place in few["narrow"]["places"])
+    # The share of one seed is between 0.6 and 1.
+    few = [remesh("plate.ply", "-n", 600, "--seed", seed) for seed in range(1, 5)]
+    assert sum(below(r, "close_features", "thin_part") for r in few) > 0.85 * sum(map(below, few)) > 0
+    wanted = max(place["vertices"] for place in few[0]["narrow"]["places"])
     assert below(remesh("plate.ply", "-n", 2 * int(wanted)), "close_features", "thin_part") == 0
 
 
