@@ -6,8 +6,8 @@ Every process runs on one core. Its time is user + system seconds, reading and w
 starting Python and importing a package took; the least of the runs counts. Each remesher gets the same feature
 angle, that which is the command line's default or each model's own, and a size calibrated until the vertex count is
 within 3 %. What cannot be installed, fails or takes too long is a row with the reason. All results are measured by
-the project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's tables; with
-the models' own angles peers_own_angles.json and PEERS_OWN_ANGLES.md.
+the project's own metrics. Writes build/bench/peers.json, tests/bench/PEERS.md, its pictures, and the README's
+tables; with the models' own angles peers_own_angles.json and PEERS_OWN_ANGLES.md.
 """
 import argparse
 import math
@@ -98,8 +98,8 @@ def bench_model(name, n, peers, settings, keep=None):
     source, rows, sizes = model(name), [], {}
     area = measure(source)["area"]
     for peer in peers:
-        row = {"model": name, "n": n, "peer": peer.name, "family": peer.family, "ours": peer.ours,
-               "reason": peer.reason}
+        row = {"model": name, "n": n, "feature_angle": settings.feature_angle, "peer": peer.name,
+               "family": peer.family, "ours": peer.ours, "reason": peer.reason}
         with tempfile.TemporaryDirectory() as folder:
             try:
                 if not peer.reason:
@@ -166,7 +166,7 @@ def main():
     rows = []
     for name, n in cases(options.models):
         own = settings._replace(feature_angle=angle_for(name, options.feature_angle))
-        rows += [{**row, "feature_angle": own.feature_angle} for row in bench_model(name, n, peers, own)]
+        rows += bench_model(name, n, peers, own)
     data = {**provenance(" ".join(["./run.sh bench peers", *sys.argv[1:]])), "feature_angle": options.feature_angle,
             "repeats": options.repeats, "time_limit": TIME_LIMIT, "peers": [p.described() for p in peers], "rows": rows}
     write_figures("peers_own_angles.json" if options.feature_angle == "own" else "peers.json", data)

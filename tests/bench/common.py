@@ -26,8 +26,8 @@ MODELS = (("joint", 6000), ("twist", 5000), ("wingnut", 6000), ("pig", 10000), (
           ("julius_noisy", 20000), ("koala", 10000), ("lion_vase", 30000), ("igea", 20000))
 SAMPLES = (("cad_part", 5000), ("twisted_bar", 5000), ("plate", 5000), ("klein_bottle", 5000), ("high_genus", 8000),
            ("bumpy", 6000), ("bust", 10000))
-# The feature angles, in degrees, at which models have creases worth keeping; the others have none. Chosen by what the
-# models are (parts, or shapes of nature), before anything was measured with them.
+# The feature angles, in degrees, at which models have creases worth keeping; the others have none. For the real models
+# they are those at which their wanted figures are given, for the samples the command line's default.
 OWN_ANGLES = {"joint": 40, "twist": 60, "wingnut": 60, "pig": 40, "cad_part": 40, "twisted_bar": 40, "plate": 40,
               "high_genus": 40}
 NO_CREASES = 180

@@ -205,7 +205,7 @@ def draw_histograms(data, names, picture):
 
 def draw(data):
     """The pictures; returns the lines that show those that could be drawn."""
-    suffix = "_own_angles" if data["feature_angle"] == "own" else ""
+    suffix = "_own_angles" if has_own_angles(data) else ""
     draw_quality(data, f"quality{suffix}.png")
     lines = ["", f"![Quality against time](pictures/quality{suffix}.png)"]
     shown = [name for name, _ in models_of(data) if reference(data, name) and rivals(data, name)]
@@ -235,20 +235,22 @@ SUMMARY = """Ratios above 1: the best of the others needs more time, or is farth
 whose count is off are left out; each column has its own best; † changed the topology."""
 
 
+def has_own_angles(data):
+    return data["feature_angle"] == "own"
+
+
 def features(data):
     """What the remeshers were told of creases."""
-    if data["feature_angle"] != "own":
+    if not has_own_angles(data):
         return FEATURES.format(**data)
-    names = {}
-    for row in data["rows"]:
-        names.setdefault(row["feature_angle"], {})[row["model"]] = None
-    angles = [f"{angle:g} degrees for {', '.join(names[angle])}" for angle in sorted(names)]
+    angles = [f"{angle:g} degrees for {', '.join(name for (name,) in pages.groups(rows, 'model'))}"
+              for (angle,), rows in sorted(pages.groups(data["rows"], "feature_angle").items())]
     first, *rest = paragraph(OWN_FEATURES.format(angles="; ".join(angles)))
     return "\n".join([first, *("  " + line for line in rest)])
 
 
 def write(data):
-    own = data["feature_angle"] == "own"
+    own = has_own_angles(data)
     title = "# Beside other remeshers" + (", at each model's own feature angle" if own else "")
     lines = [title, ""] + pages.stamp(data, "this page")
     lines += ["", INTRODUCTION.format(features=features(data), **data), "## Conclusions", ""]

@@ -46,9 +46,8 @@ inline Point SmallestAngleGradient(const Point &u, const Point &w, const Point &
 template <class Weight>
 double SmallestAngleAt(const LocalStar &star, int k, Point &gradient, const Weight &weight)
 {
-    const int next = k + 1;
-    const Point &u = star.spoke[k], &w = star.spoke[next];
-    const double uu = star.squared[k], ww = star.squared[next], uw = SquaredNorm(w - u);
+    const Point &u = star.spoke[k], &w = star.spoke[k + 1];
+    const double uu = star.squared[k], ww = star.squared[k + 1], uw = SquaredNorm(w - u);
     const double angle = SmallestAngle(uw, ww, uu);
     gradient += SmallestAngleGradient(u, w, star.cross[k], uu, ww, uw) * weight(angle);
     return angle;

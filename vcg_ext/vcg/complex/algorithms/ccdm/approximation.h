@@ -83,7 +83,7 @@ private:
     PerWorker<std::array<int, MostProbes>> _watched; // probes of the star at hand
     PerWorker<std::vector<Anchor>> _anchor;          // points of the surface next to its samples
     std::vector<double> _stray;                      // of each triangle: mean squared distance of its samples
-    std::vector<float> _middle;                      // of each side: squared distance of its middle, if it measured it
+    std::vector<float> _middle;                      // of each side: squared distance of its middle, if a Measurer
     std::vector<std::uint8_t> _active;
     double _mean = 0;    // of the squared distances
     double _weight = 0;  // of a squared distance
@@ -107,8 +107,8 @@ private:
 
     float &MiddleOf(Side s) { return _middle[3 * static_cast<std::size_t>(SideTriangle(s)) + SideEdge(s)]; }
 
-    // Of the two sides of an edge, the one whose triangle measures it for both: off the features, where they see the
-    // same surface.
+    // The side whose triangle measures the middle of the edge for both: the lower one of those that may have changed.
+    // At a feature each measures its own, as they may see different surfaces.
     Side Measurer(Side s) const
     {
         const Side mate = _remesh.mesh.Mate(s);
@@ -181,17 +181,14 @@ private:
 
     void Activate()
     {
-        const auto look = [&](int first, int last, std::vector<int> &found) {
-            for (int t = first; t < last; ++t) {
-                bool far = _stray[t] > Cut * _mean;
-                for (int k = _probe.First(t); k < _probe.First(t + 1) && !far; ++k)
-                    far = Far(_probe.Owned(k));
-                if (far)
-                    found.push_back(t);
-            }
+        const auto strays = [&](int t) {
+            bool far = _stray[t] > Cut * _mean;
+            for (int k = _probe.First(t); k < _probe.First(t + 1) && !far; ++k)
+                far = Far(_probe.Owned(k));
+            return far;
         };
         std::fill(_active.begin(), _active.end(), 0);
-        for (const int t : Chunks::CollectList<int>(_workers, _remesh.mesh.TriangleCount(), look))
+        for (const int t : Chunks::Where(_workers, _remesh.mesh.TriangleCount(), strays))
             for (const int v : _remesh.mesh.triangle[t].v)
                 _active[v] = 1;
     }

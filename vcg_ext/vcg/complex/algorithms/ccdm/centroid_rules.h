@@ -30,9 +30,8 @@ struct PatchCentroid {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const int next = k + 1;
             const double m = TriangleMass(remesh, uniform, star, v, k);
-            sum += (star.spoke[k] + star.spoke[next]) * m;
+            sum += (star.spoke[k] + star.spoke[k + 1]) * m;
             mass += m;
         }
         return mass > 0 ? sum / (3 * mass) : Point(0, 0, 0);
@@ -77,18 +76,17 @@ struct CellCentroid {
         Point sum(0, 0, 0);
         double mass = 0;
         for (int k = 0; k < star.triangles; ++k) {
-            const int next = k + 1;
-            const Point &u = star.spoke[k], &w = star.spoke[next];
+            const Point &u = star.spoke[k], &w = star.spoke[k + 1];
             const double m2 = SquaredNorm(star.cross[k]);
             if (!(m2 > 0))
                 continue;
-            const double uu = star.squared[k], ww = star.squared[next], uw = Dot(u, w), m = std::sqrt(m2);
+            const double uu = star.squared[k], ww = star.squared[k + 1], uw = Dot(u, w), m = std::sqrt(m2);
             if (uw < 0 && star.Wall(k)) {
                 // The bisectors of the spokes meet the edge from u to w at the shares s and t of its length.
                 const double s = 0.5 * uu / (uu - uw), t = 1 - 0.5 * ww / (ww - uw);
                 const Point p = u * (1 - s) + w * s, q = u * (1 - t) + w * t;
                 const double rho =
-                    uniform ? 1.0 : (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[next]]) / 3;
+                    uniform ? 1.0 : (remesh.rho[v] + remesh.rho[star.id[k]] + remesh.rho[star.id[k + 1]]) / 3;
                 const double first = 0.5 * s * m * rho, middle = (t - s) * m * rho, last = 0.5 * (1 - t) * m * rho;
                 sum += (u * 0.5 + p) * first + (p + q) * middle + (q + w * 0.5) * last;
                 mass += first + middle + last;
@@ -105,7 +103,7 @@ struct CellCentroid {
             }
             const Point centre = u * a + w * b;
             const double r = remesh.rho[v], ru = 0.5 * (r + remesh.rho[star.id[k]]),
-                         rw = 0.5 * (r + remesh.rho[star.id[next]]);
+                         rw = 0.5 * (r + remesh.rho[star.id[k + 1]]);
             const double rc = std::max(r + 2 * a * (ru - r) + 2 * b * (rw - r), 0.1 * r);
             sum += (u * (0.5 * (r + 2 * ru + rc)) + centre * (r + ru + 2 * rc)) * (0.25 * areaU);
             sum += (w * (0.5 * (r + 2 * rw + rc)) + centre * (r + rw + 2 * rc)) * (0.25 * areaW);

@@ -153,9 +153,7 @@ private:
             // A tip behind a crease, or on another sheet, is not for this vertex.
             if (!_model.surface.Joined(_remesh.place[v].face, _probe[r].face, target, 1.5 * Norm(target - old), 4096))
                 continue;
-            for (const double way : {1.0, 0.75, 0.5}) {
-                if (k > 0 && way == 1)
-                    continue;
+            for (double way = k > 0 ? 0.75 : 1; way >= 0.5; way -= 0.25) {
                 Put(r, v, old, way);
                 for (const int sweeps : {0, Sweeps}) {
                     if (sweeps > 0)

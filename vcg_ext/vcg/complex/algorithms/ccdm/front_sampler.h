@@ -157,7 +157,7 @@ public:
                 best.swap(found);
                 _bestScale = scale;
             }
-            if (miss <= 2 + count / 50)
+            if (miss <= 2 + count / MissedShare)
                 break;
             scale *= std::sqrt(static_cast<double>(std::max(size, 1)) / count);
         }
@@ -183,6 +183,9 @@ private:
 
     // Measured: gaps where fronts meet leave 2 to 6 percent too few points at the wanted spacing.
     static constexpr double FirstScale = 0.983;
+    /// A miss of one in so many is made good by filling or thinning, without another round. Measured: against one in a
+    /// hundred 5 % of the time of a part whose first round misses by more, for 0.06 degrees.
+    static constexpr int MissedShare = 50;
     static constexpr std::size_t MostJoined = 128; // faces looked at
 
     const ReferenceSurface &_surface;

@@ -285,7 +285,8 @@ private:
     }
 
     // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time; more at the
-    // coarse level raise them where the surface has no features, by 0.1 degrees.
+    // coarse level raise them where the surface has no features, by 0.1 degrees. Shares from 2.15 to 2.25 there come
+    // out alike in the mean over seeds.
     static constexpr double CoarseShare = 2.15, FineShare = 0.33, FineNoise = 0.25;
     static constexpr int ClosingRelocations = 6;
     /// Tips further off than so many root mean square distances are captured, first and at last. Measured: with 5 at

@@ -179,6 +179,18 @@ struct Chunks {
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }
+
+    /// The numbers in [0, count) for which test(number) is true, in order.
+    template <class Test>
+    static std::vector<int> Where(Workers &workers, int count, const Test &test)
+    {
+        const auto look = [&](int first, int last, std::vector<int> &found) {
+            for (int i = first; i < last; ++i)
+                if (test(i))
+                    found.push_back(i);
+        };
+        return CollectList<int>(workers, count, look);
+    }
 };
 
 } // namespace ccdm

@@ -101,7 +101,7 @@ struct Params {
     /// Number of perturb-optimise rounds, NG. The accelerated optimiser does NG * NL relocations; where it starts from
     /// a coarse level, 2.15 times as many there and a third as many at full resolution.
     /// Unit: rounds. Range: [0, 1000000]. Default: 22; with annealing 40. Source: paper, section 3.4, for 40; 22 is
-    /// measured: two more take 3 % more time for 0.02 degrees.
+    /// measured: without a coarse level two more take 3 % more time for 0.02 degrees.
     std::optional<int> globalIterations;
     /// Number of (Delaunay mesh, relocation) steps in each round, NL.
     /// Unit: steps. Range: [1, 1000000]. Default: 3. Source: paper, section 3.4.

@@ -16,6 +16,19 @@
 namespace vcg {
 namespace ccdm {
 
+/// The edges between two triangles for which test(side) is true, each by its side of the lower number, in order.
+template <class Test>
+std::vector<Side> InnerEdgesWhere(const Triangulation &m, Workers &workers, const Test &test)
+{
+    const auto look = [&](int first, int last, std::vector<Side> &found) {
+        m.VisitEdges(first, last, [&](Side s) {
+            if (m.Mate(s) != NoSide && test(s))
+                found.push_back(s);
+        });
+    };
+    return Chunks::CollectList<Side>(workers, m.TriangleCount(), look);
+}
+
 /// Patches of a mesh that can be worked on at the same time. Vertices are numbered along a space-filling
 /// curve, so a range of numbers is a patch of the surface.
 struct Patches {

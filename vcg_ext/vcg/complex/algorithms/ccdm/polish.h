@@ -41,25 +41,19 @@ public:
     {
         _stray = stray * stray;
         const double cosine = std::cos(degrees * Pi / 180);
+        const auto small = [&](int t) { return LargestCosine(t) > cosine; };
         if (_searched < degrees)
-            _bad = Chunks::CollectList<int>(_workers, _remesh.mesh.TriangleCount(),
-                                            [&](int first, int last, std::vector<int> &found) {
-                                                for (int t = first; t < last; ++t)
-                                                    if (LargestCosine(t) > cosine)
-                                                        found.push_back(t);
-                                            });
+            _bad = Chunks::Where(_workers, _remesh.mesh.TriangleCount(), small);
         _searched = degrees;
         // A triangle that could not be helped twice is left alone; thin parts may have nothing else.
         std::unordered_map<int, int> failures;
         for (int round = 0;; ++round) {
-            _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !(LargestCosine(t) > cosine); }),
-                       _bad.end());
+            _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !small(t); }), _bad.end());
             if (_bad.empty() || round == rounds)
                 break;
             bool improved = false;
-            _thorough = _bad.size() <= Few;
             for (const int t : _bad)
-                if (LargestCosine(t) > cosine && _failuresLeft > 0 && failures[t] < 2) {
+                if (small(t) && _failuresLeft > 0 && failures[t] < 2) {
                     const bool helped = Improve(t);
                     failures[t] = helped ? 0 : failures[t] + 1;
                     // What fails for the pins is tried again without them.
@@ -150,7 +144,6 @@ private:
     int _failuresLeft;       // attempts at triangles, all calls together, that may be in vain
     long long _searchesLeft; // for positions in shaken patches, all calls together
     double _stray = 0;
-    bool _thorough = true;     // few triangles are left
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed
@@ -166,13 +159,7 @@ private:
     // One side of each folded edge.
     std::vector<Side> Folded() const
     {
-        const auto look = [&](int first, int last, std::vector<Side> &found) {
-            for (int t = first; t < last; ++t)
-                for (const Side s : {MakeSide(t, 0), MakeSide(t, 1), MakeSide(t, 2)})
-                    if (_remesh.mesh.Mate(s) > s && TurnCosine(_remesh, s) < FoldCosine)
-                        found.push_back(s);
-        };
-        return Chunks::CollectList<Side>(_workers, _remesh.mesh.TriangleCount(), look);
+        return InnerEdgesWhere(_remesh.mesh, _workers, [&](Side s) { return TurnCosine(_remesh, s) < FoldCosine; });
     }
 
     double LargestCosine(int t) const { return ccdm::LargestCosine(_remesh, t); }
@@ -279,7 +266,8 @@ private:
         if (mate == NoSide)
             return false;
         const Hinge h(_remesh, s);
-        if ((!_thorough && SquaredNorm(h.a - h.b) > LongFlip * SquaredNorm(h.p - h.q)) || !MayFlip(_remesh, s, h))
+        const bool thorough = _bad.size() <= Few;
+        if ((!thorough && SquaredNorm(h.a - h.b) > LongFlip * SquaredNorm(h.p - h.q)) || !MayFlip(_remesh, s, h))
             return false;
         const int vertex[4] = {h.apexA, h.apexB, _remesh.mesh.Tail(s), _remesh.mesh.Head(s)};
         Point position[4];
@@ -298,7 +286,7 @@ private:
         const Side flipped = _remesh.mesh.Flip(s);
         _changed.insert(_changed.end(), std::begin(vertex), std::end(vertex));
         // Half the smallest angle of before is too little to begin with.
-        if (_thorough || LargestCosineAround(vertex) < std::sqrt((1 + before) / 2)) {
+        if (thorough || LargestCosineAround(vertex) < std::sqrt((1 + before) / 2)) {
             for (const int v : vertex)
                 Shift(v);
             if (LargestCosineAround(vertex) < before - 1e-6)

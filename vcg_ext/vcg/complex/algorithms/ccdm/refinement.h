@@ -99,10 +99,9 @@ public:
         std::vector<Edge> longest = Chunks::CollectList<Edge>(workers, m.TriangleCount(), look);
         std::sort(longest.begin(), longest.end(), longer);
         longest.resize(std::min(longest.size(), static_cast<std::size_t>(count)));
-        Workers alone(1);
         for (const Edge &edge : longest) {
             const Side s = m.FindEdge(edge.tail, edge.head);
-            AddMiddles({s}, alone);
+            AddMiddles({s}, workers);
             _remesh.mesh.SplitEdge(s, _remesh.VertexCount() - 1);
         }
     }

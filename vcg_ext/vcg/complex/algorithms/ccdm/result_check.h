@@ -63,15 +63,7 @@ private:
     static std::vector<Side> FoldedEdges(const Remesh &remesh, Workers &workers)
     {
         const Triangulation &m = remesh.mesh;
-        return Chunks::CollectList<Side>(workers, m.TriangleCount(),
-                                         [&](int first, int last, std::vector<Side> &found) {
-                                             for (int t = first; t < last; ++t)
-                                                 for (int e = 0; e < 3; ++e) {
-                                                     const Side s = MakeSide(t, e);
-                                                     if (m.Mate(s) >= s && Turn(m, remesh.position, s) > FoldTurn)
-                                                         found.push_back(s);
-                                                 }
-                                         });
+        return InnerEdgesWhere(m, workers, [&](Side s) { return Turn(m, remesh.position, s) > FoldTurn; });
     }
 
     // Whether the input's normals within `reach` of p differ by more than 75 degrees.

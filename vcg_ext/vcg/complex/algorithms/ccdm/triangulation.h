@@ -223,13 +223,14 @@ public:
         }
     }
 
-    /// Calls visit(side) once for every edge, with the side of the lower number; or for those of them that are sides of
-    /// triangles in [first, last).
+    /// Calls visit(side) once for every edge, with the side of the lower number.
     template <class Visit>
     void VisitEdges(const Visit &visit) const
     {
         VisitEdges(0, TriangleCount(), visit);
     }
+
+    /// The same for the edges of which that is a side of one of the triangles in [first, last).
     template <class Visit>
     void VisitEdges(int first, int last, const Visit &visit) const
     {
