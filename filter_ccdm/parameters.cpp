@@ -104,7 +104,7 @@ RichParameterList DeclareParameters(int vertices)
                  Tip("Accelerated gives better triangles in the same time; Annealing, with random samples, is "
                      "the method as published.") CCDM_ADVANCED));
     list.addParam(RichInt("global_iterations", Auto, "Global iterations (NG; -1: auto)",
-                          Tip("Number of perturb-and-optimise rounds, 0 to 1000000; -1: 22 with Accelerated, 40 with "
+                          Tip("Number of perturb-and-optimise rounds, 0 to 1000000; -1: 14 with Accelerated, 40 with "
                               "Annealing. Triangles get better with more; time grows in proportion.") CCDM_ADVANCED));
     list.addParam(RichInt("local_iterations", p.localIterations, "Local iterations (NL)",
                           Tip("Relocations of every vertex in each round, 1 to 1000000.") CCDM_ADVANCED));

@@ -130,7 +130,7 @@ def test_max_error_by_default(remesh, samples, tmp_path):
     assert run.returncode == 0, run.stderr
     data = json.loads(report.read_text())
     assert data["target"]["met"] is True and data["result"]["hausdorff"] <= 0.005
-    given = remesh(f"{samples}/bust.ply", tmp_path / "p.ply", "--max-error", 0.005, "--global-iterations", 22, "--quiet")
+    given = remesh(f"{samples}/bust.ply", tmp_path / "p.ply", "--max-error", 0.005, "--global-iterations", 14, "--quiet")
     assert given.returncode == 0 and (tmp_path / "p.ply").read_bytes() == (tmp_path / "o.ply").read_bytes()
 
 

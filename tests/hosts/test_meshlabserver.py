@@ -138,7 +138,7 @@ def test_no_mesh_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("optimizer, plan", [
-    (0, "accelerated optimizer, 22 x 3 iterations, lambda 0.2, smallest angle 40 deg"),
+    (0, "accelerated optimizer, 14 x 3 iterations, lambda 0.2, smallest angle 40 deg"),
     (1, "annealing optimizer, 40 x 3 iterations, lambda 0.2, smallest angle 34 deg")])
 def test_minus_one_is_what_the_optimizer_has(tmp_path, optimizer, plan):
     run = run_server(f"{SAMPLES}/sphere.ply", variant(tmp_path, vertex_count=300, optimizer=optimizer,

@@ -127,7 +127,7 @@ void AddParameters(CLI::App &app, vcg::ccdm::Params &p)
     AddNumber(app, "--lambda", p.lambda, {0, 1, "from 0 to 1"},
               "size of the perturbation, relative to the edge length, from 0 to 1 (default: 0.2)");
     AddNumber(app, "--global-iterations", p.globalIterations, {0, 1000000, "from 0 to 1000000"},
-              "perturb-optimise rounds (NG), from 0 to 1000000 (default: 22; with annealing 40)");
+              "perturb-optimise rounds (NG), from 0 to 1000000 (default: 14; with annealing 40)");
     AddNumber(app, "--local-iterations", p.localIterations, {1, 1000000, "from 1 to 1000000"},
               "relocations in a round (NL), from 1 to 1000000 (default: 3)");
     AddNumber(app, "--min-angle", p.minAngle, {0, 45, "from 0 to 45"},

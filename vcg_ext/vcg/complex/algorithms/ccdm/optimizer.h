@@ -250,7 +250,7 @@ private:
     bool AccelerateBy(const Rule &rule, int count, double noise, double begin, double end, const Progress &progress)
     {
         std::vector<Point> last = _remesh.position;
-        const HeavyBall<Rule> pull = {rule, {{_remesh, _model.density.uniform}}, 0.6, _remesh.position, last};
+        const HeavyBall<Rule> pull = {rule, {{_remesh, _model.density.uniform}}, Momentum, _remesh.position, last};
         Flip();
         for (int i = 0; i < count; ++i) {
             const double size = noise * (1 - i / (0.6 * count));
@@ -284,6 +284,10 @@ private:
         return progress(1);
     }
 
+    // Along smooth modes a step grows to pull / (1 - momentum). Measured for the cell centroid: the larger that is, the
+    // fewer sweeps are needed; with 4.3 two thirds of those with 3.75, in equal parts of momentum and pull or not; from
+    // 4.7 on the vertices no longer come to rest and angles are lost.
+    static constexpr double Momentum = 0.52;
     // Measured: fewer relocations or less noise after the refinement lower the angles, more cost time; more at the
     // coarse level raise them where the surface has no features, by 0.1 degrees. Shares from 2.15 to 2.25 there come
     // out alike in the mean over seeds.
