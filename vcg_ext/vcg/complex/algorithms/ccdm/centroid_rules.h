@@ -67,7 +67,7 @@ struct Perturbation {
 /// the circumcentre, cut in two signed triangles at the latter. Where that reaches over a feature edge, it
 /// is clipped there.
 struct CellCentroid {
-    static constexpr double Pull = 2.05; ///< as for PatchCentroid
+    static constexpr double Pull = 2.15; ///< as for PatchCentroid
     const Remesh &remesh;
     bool uniform;
 
