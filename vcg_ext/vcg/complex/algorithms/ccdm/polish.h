@@ -133,6 +133,10 @@ private:
     /// together with moves 3 % were beyond it, of the others 30 %; and 3 and 20 % began with less than half the angle.
     static constexpr double LongFlip = 4;
     static constexpr std::size_t Few = 30;
+    /// What a step of a search gains at least, as a difference of cosines; the second while there is more than a few to
+    /// see to. Measured: less than that, between features that are close together, goes round in circles, and what has
+    /// room waits behind it.
+    static constexpr double LeastGain = 1e-6, FairGain = 1e-3;
     static constexpr std::size_t MostTried = 96; // of a star: at the tip of needles there can be many hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
 
@@ -340,7 +344,7 @@ private:
             return false;
         _remesh.mesh.GatherStar(v, _star);
         Point &x = _remesh.position[v];
-        return _relocator.Search(v, 0.5, 0.02, 4, [&](const LocalStar &, const Point &q, double wanted) {
+        return _relocator.Search(v, 0.5, 0.02, 4, LeastGain, [&](const LocalStar &, const Point &q, double wanted) {
             const Point stay = x;
             x += q;
             double worst = 1;
@@ -365,7 +369,7 @@ private:
                 least = std::min(least, -ccdm::LargestCosine(q, s.spoke[i], s.spoke[i + 1]));
             return least;
         };
-        if (!_relocator.Search(v, 0.2, 0.02, 8, score))
+        if (!_relocator.Search(v, 0.2, 0.02, 8, _bad.size() <= Few ? LeastGain : FairGain, score))
             return false;
         _changed.push_back(v);
         _remesh.mesh.GatherStar(v, _star);

@@ -62,11 +62,11 @@ public:
     }
 
     /// Pattern search for single vertices: moves v by `size` times its mean edge length in six directions of its
-    /// tangent plane, up to `repeats` times each, as long as a score rises by that; then by half of that, down to
-    /// `least`. score(star, position relative to v, wanted) may return anything that is not above `wanted` if the
+    /// tangent plane, up to `repeats` times each, as long as a score rises by more than `gain` with
+    /// that; then by half of that, down to `least`. score(star, position relative to v, wanted) may return anything that is not above `wanted` if the
     /// score is not. Returns whether v has moved.
     template <class Score>
-    bool Search(int v, double size, double least, int repeats, const Score &score)
+    bool Search(int v, double size, double least, int repeats, double gain, const Score &score)
     {
         constexpr double half = 0.5, root = 0.8660254037844386; // cosine and sine of 60 degrees
         constexpr double direction[6][2] = {{1, 0},  {half, root},   {-half, root},
@@ -79,7 +79,7 @@ public:
             if (!gathered) {
                 Gather(v);
                 TangentAxes(_star, t1, t2);
-                wanted = score(_star, Point(0, 0, 0), -1e300) + 1e-6;
+                wanted = score(_star, Point(0, 0, 0), -1e300) + gain;
                 gathered = true;
             }
             const Point step = (t1 * direction[k][0] + t2 * direction[k][1]) * (size * _star.radius);
