@@ -47,10 +47,13 @@ public:
         _searched = degrees;
         // A triangle that could not be helped twice is left alone; thin parts may have nothing else.
         std::unordered_map<int, int> failures;
+        _gain = FairGain;
         for (int round = 0;; ++round) {
             _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !small(t); }), _bad.end());
             if (_bad.empty() || round == rounds)
                 break;
+            if (_bad.size() <= Few)
+                _gain = LeastGain;
             bool improved = false;
             for (const int t : _bad)
                 if (small(t) && _failuresLeft > 0 && failures[t] < 2) {
@@ -61,8 +64,12 @@ public:
                     improved = improved || helped;
                 }
             LookAroundChanged();
-            if (!improved)
+            if (improved)
+                continue;
+            if (_gain == LeastGain)
                 break;
+            _gain = LeastGain;
+            failures.clear();
         }
         return static_cast<int>(_bad.size());
     }
@@ -133,9 +140,9 @@ private:
     /// together with moves 3 % were beyond it, of the others 30 %; and 3 and 20 % began with less than half the angle.
     static constexpr double LongFlip = 4;
     static constexpr std::size_t Few = 30;
-    /// What a step of a search gains at least, as a difference of cosines; the second while there is more than a few to
-    /// see to. Measured: less than that, between features that are close together, goes round in circles, and what has
-    /// room waits behind it.
+    /// What a step of a search gains at least, as a difference of cosines: the second until none does or a few triangles
+    /// are left. Measured: with less from the start, small angles between features that are close together are spread
+    /// without end while others wait.
     static constexpr double LeastGain = 1e-6, FairGain = 1e-3;
     static constexpr std::size_t MostTried = 96; // of a star: at the tip of needles there can be many hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
@@ -148,6 +155,7 @@ private:
     int _failuresLeft;       // attempts at triangles, all calls together, that may be in vain
     long long _searchesLeft; // for positions in shaken patches, all calls together
     double _stray = 0;
+    double _gain = LeastGain; // of the steps of Shift
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed
@@ -369,7 +377,7 @@ private:
                 least = std::min(least, -ccdm::LargestCosine(q, s.spoke[i], s.spoke[i + 1]));
             return least;
         };
-        if (!_relocator.Search(v, 0.2, 0.02, 8, _bad.size() <= Few ? LeastGain : FairGain, score))
+        if (!_relocator.Search(v, 0.2, 0.02, 8, _gain, score))
             return false;
         _changed.push_back(v);
         _remesh.mesh.GatherStar(v, _star);

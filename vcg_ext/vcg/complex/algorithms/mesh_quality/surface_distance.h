@@ -127,9 +127,13 @@ public:
         if (n > 0)
             Split(soup, centre, order, 0, static_cast<int>(n));
         _corner.reserve(n);
+        _plane.reserve(n);
         for (const int t : order) {
             const auto &f = soup.face[t];
-            _corner.push_back({soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]});
+            const Corners c = {soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]};
+            const Vector normal = (c[1] - c[0]) ^ (c[2] - c[0]);
+            _corner.push_back(c);
+            _plane.push_back({normal, normal.SquaredNorm()});
         }
         _face = std::move(order);
     }
@@ -138,16 +142,22 @@ public:
     /// (-1: none) and becomes that of the nearest.
     double SquaredDistance(const Vector &p, int &hint) const
     {
-        double best = hint >= 0 ? SquaredDistance(p, _corner[hint]) : std::numeric_limits<double>::max();
-        int stack[64], top = 0;
-        stack[top++] = 0;
+        double best = hint >= 0 ? SquaredDistance(p, _plane[hint], _corner[hint], Infinity) : Infinity;
+        struct Open {
+            int node;
+            double away;
+        };
+        Open stack[64];
+        int top = 0;
+        stack[top++] = {0, Away(_node[0], p)};
         while (top > 0) {
-            const Node &n = _node[stack[--top]];
-            if (Away(n, p) >= best)
+            const Open open = stack[--top];
+            if (open.away >= best)
                 continue;
+            const Node &n = _node[open.node];
             if (n.count > 0) {
                 for (int k = n.first; k < n.first + n.count; ++k) {
-                    const double d = SquaredDistance(p, _corner[k]);
+                    const double d = SquaredDistance(p, _plane[k], _corner[k], best);
                     if (d < best) {
                         best = d;
                         hint = k;
@@ -155,12 +165,19 @@ public:
                 }
                 continue;
             }
-            const int left = static_cast<int>(&n - _node.data()) + 1, right = n.first;
-            const bool leftFirst = Away(_node[left], p) <= Away(_node[right], p);
+            const Open left = {open.node + 1, Away(_node[open.node + 1], p)},
+                       right = {n.first, Away(_node[n.first], p)};
+            const bool leftFirst = left.away <= right.away;
             stack[top++] = leftFirst ? right : left;
             stack[top++] = leftFirst ? left : right;
         }
         return best;
+    }
+
+    /// Squared distance of p from the triangle of that number, as `hint` above.
+    double SquaredDistanceFrom(int number, const Vector &p) const
+    {
+        return SquaredDistance(p, _plane[number], _corner[number], Infinity);
     }
 
     /// Calls visit(face) for the faces whose boxes may overlap that of a triangle.
@@ -212,8 +229,14 @@ private:
     };
     using Corners = std::array<Vector, 3>;
     std::vector<Node> _node;
+    struct Plane {
+        Vector normal; // twice the area long
+        double squared = 0;
+    };
+    static constexpr double Infinity = std::numeric_limits<double>::max();
     std::vector<Corners> _corner;
-    std::vector<int> _face; // of the soup, for each of those
+    std::vector<Plane> _plane; // of those
+    std::vector<int> _face;    // of the soup, for each of those
 
     static double Away(const Node &n, const Vector &p)
     {
@@ -269,18 +292,20 @@ private:
         return (w - d * t).SquaredNorm();
     }
 
-    // From the plane inside the prism over the triangle, else from its sides.
-    static double SquaredDistance(const Vector &p, const Corners &c)
+    // From the plane inside the prism over the triangle, else from its sides; or something that is not below `bound` if
+    // that is not.
+    static double SquaredDistance(const Vector &p, const Plane &plane, const Corners &c, double bound)
     {
-        const Vector n = (c[1] - c[0]) ^ (c[2] - c[0]);
-        const double n2 = n.SquaredNorm();
-        bool inside = n2 > 0;
+        const Vector &n = plane.normal;
+        const Vector w = p - c[0];
+        const double h = w * n;
+        bool inside = plane.squared > 0;
+        if (inside && h * h >= bound * plane.squared)
+            return bound;
         for (int k = 0; k < 3 && inside; ++k)
             inside = ((c[(k + 1) % 3] - c[k]) ^ (p - c[k])) * n >= 0;
-        if (inside) {
-            const double h = (p - c[0]) * n;
-            return h * h / n2;
-        }
+        if (inside)
+            return h * h / plane.squared;
         return std::min(
             {SquaredDistance(p, c[0], c[1]), SquaredDistance(p, c[1], c[2]), SquaredDistance(p, c[2], c[0])});
     }
@@ -321,20 +346,22 @@ private:
     /// A part of a face that may hold a larger distance than the largest so far.
     struct Part {
         double distance; // of its middle
-        double radius;   // of the vertices from the middle
+        double most;     // no point of it has a larger one
         long long left;  // queries, when it was looked at: among equals the earlier ones come first
         Vector a, b, c;
 
-        // Those further away come first, then the larger ones: a plateau is searched evenly.
+        // Those further away come first, then those that leave most open: a plateau is searched evenly.
         bool operator<(const Part &other) const
         {
-            return std::tie(distance, radius, left) < std::tie(other.distance, other.radius, other.left);
+            return std::tie(distance, most, left) < std::tie(other.distance, other.most, other.left);
         }
     };
     std::priority_queue<Part> _open;
 
     static constexpr double Tolerance = 1.001;
     static constexpr long long MostQueries = 200000, QueriesPerSample = 20;
+
+    static double Fraction(double x) { return x - std::floor(x); }
 
     double Query(const Vector &p)
     {
@@ -363,8 +390,7 @@ private:
             while (t + 1 < area.size() && area[t] < want)
                 ++t;
             // The plastic number's fractions fill the unit square evenly (Roberts 2018).
-            double u = std::fmod(0.5 + 0.7548776662466927 * (i + 1), 1.0),
-                   w = std::fmod(0.5 + 0.5698402909980532 * (i + 1), 1.0);
+            double u = Fraction(0.5 + 0.7548776662466927 * (i + 1)), w = Fraction(0.5 + 0.5698402909980532 * (i + 1));
             if (u + w > 1) {
                 u = 1 - u;
                 w = 1 - w;
@@ -413,15 +439,20 @@ private:
         }
     }
 
-    // The distance changes by no more than the way.
-    bool MayHoldMore(const Part &part) const { return part.distance + part.radius > Tolerance * std::sqrt(_largest); }
+    bool MayHoldMore(const Part &part) const { return part.most > Tolerance * std::sqrt(_largest); }
 
     void Search(const Vector &a, const Vector &b, const Vector &c)
     {
         const Vector middle = (a + b + c) / 3.0;
         const double radius =
             std::sqrt(std::max({(a - middle).SquaredNorm(), (b - middle).SquaredNorm(), (c - middle).SquaredNorm()}));
-        const Part part = {std::sqrt(Query(middle)), radius, _queriesLeft--, a, b, c};
+        Part part = {std::sqrt(Query(middle)), 0, _queriesLeft--, a, b, c};
+        // The distance changes by no more than the way; and that from one triangle, the middle's nearest, which is
+        // convex, is largest in a corner.
+        part.most =
+            std::min(part.distance + radius,
+                     std::sqrt(std::max({_tree.SquaredDistanceFrom(_hint, a), _tree.SquaredDistanceFrom(_hint, b),
+                                         _tree.SquaredDistanceFrom(_hint, c)})));
         if (MayHoldMore(part))
             _open.push(part);
     }
