@@ -47,8 +47,7 @@ TEST(Polish, LeavesPinnedVerticesWhereTheyAre)
     const Model model = meshes::MakeModel(shapes::Sphere(4), 2562, 180);
     Remesh r = meshes::AsRemesh(model);
     Relocator relocator(model, r);
-    for (const std::uint64_t seed : {1, 2, 3})
-        relocator.Sweep(Perturbation{0.4, seed});
+    relocator.Sweep(Perturbation{0.4, 1});
     std::vector<int> pinned;
     for (int v = 0; v < r.VertexCount(); v += 5)
         pinned.push_back(v);

@@ -48,9 +48,10 @@ public:
         // A triangle that could not be helped twice is left alone; thin parts may have nothing else.
         std::unordered_map<int, int> failures;
         _gain = FairGain;
+        bool stuck = false;
         for (int round = 0;; ++round) {
             _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !small(t); }), _bad.end());
-            if (_bad.empty() || round == rounds)
+            if (_bad.empty() || round == rounds || stuck)
                 break;
             if (_bad.size() <= Few)
                 _gain = LeastGain;
@@ -64,12 +65,11 @@ public:
                     improved = improved || helped;
                 }
             LookAroundChanged();
-            if (improved)
-                continue;
-            if (_gain == LeastGain)
-                break;
-            _gain = LeastGain;
-            failures.clear();
+            stuck = !improved && _gain == LeastGain;
+            if (!improved) {
+                _gain = LeastGain;
+                failures.clear();
+            }
         }
         return static_cast<int>(_bad.size());
     }
@@ -140,9 +140,9 @@ private:
     /// together with moves 3 % were beyond it, of the others 30 %; and 3 and 20 % began with less than half the angle.
     static constexpr double LongFlip = 4;
     static constexpr std::size_t Few = 30;
-    /// What a step of a search gains at least, as a difference of cosines: the second until none does or a few triangles
-    /// are left. Measured: with less from the start, small angles between features that are close together are spread
-    /// without end while others wait.
+    /// What a step of a search gains at least, as a difference of cosines: the second until none does or a few
+    /// triangles are left. Measured: with less from the start, small angles between features that are close together
+    /// are spread without end while others wait.
     static constexpr double LeastGain = 1e-6, FairGain = 1e-3;
     static constexpr std::size_t MostTried = 96; // of a star: at the tip of needles there can be many hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees
@@ -155,7 +155,7 @@ private:
     int _failuresLeft;       // attempts at triangles, all calls together, that may be in vain
     long long _searchesLeft; // for positions in shaken patches, all calls together
     double _stray = 0;
-    double _gain = LeastGain; // of the steps of Shift
+    double _gain = LeastGain;  // of the steps of Shift
     double _searched = -1;     // the angle that all triangles have been searched for
     std::vector<int> _bad;     // triangles to look at
     std::vector<int> _changed; // vertices that have moved, or whose edges have changed

@@ -62,9 +62,9 @@ public:
     }
 
     /// Pattern search for single vertices: moves v by `size` times its mean edge length in six directions of its
-    /// tangent plane, up to `repeats` times each, as long as a score rises by more than `gain` with
-    /// that; then by half of that, down to `least`. score(star, position relative to v, wanted) may return anything that is not above `wanted` if the
-    /// score is not. Returns whether v has moved.
+    /// tangent plane, up to `repeats` times each, as long as a score rises by more than `gain` with that; then by half
+    /// of that, down to `least`. score(star, position relative to v, wanted) may return anything that is not above
+    /// `wanted` if the score is not. Returns whether v has moved.
     template <class Score>
     bool Search(int v, double size, double least, int repeats, double gain, const Score &score)
     {
