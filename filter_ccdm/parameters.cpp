@@ -108,10 +108,11 @@ RichParameterList DeclareParameters(int vertices)
                               "Annealing. Triangles get better with more; time grows in proportion.") CCDM_ADVANCED));
     list.addParam(RichInt("local_iterations", p.localIterations, "Local iterations (NL)",
                           Tip("Relocations of every vertex in each round, 1 to 1000000.") CCDM_ADVANCED));
-    list.addParam(RichFloat("lambda", static_cast<Scalarm>(p.lambda), "Lambda (edge lengths)",
-                            Tip("Size of the random perturbation in units of the edge length, 0 to 1. The paper "
-                                "recommends 0.2. The accelerated optimizer starts at half of it and fades it out.")
-                                CCDM_ADVANCED));
+    list.addParam(
+        RichFloat("lambda", static_cast<Scalarm>(p.lambda), "Lambda (edge lengths)",
+                  Tip("Size of the random perturbation in units of the edge length, 0 to 1. The paper "
+                      "recommends 0.2. The accelerated optimizer begins with about a third of it and fades it out.")
+                      CCDM_ADVANCED));
     list.addParam(RichFloat("min_angle", Auto, "Smallest angle (deg; -1: auto)",
                             Tip("The closing polish aims at no angle below this, 0 to 45 degrees; -1: 40 with "
                                 "Accelerated, 34 with Annealing. Sharp corners and narrow parts of the input can "

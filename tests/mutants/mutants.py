@@ -34,7 +34,7 @@ FAULTS = {
         "ccdm/centroid_rules.h", "w * (m * uu * (ww - uw) / (2 * m2))", "w * (m * ww * (ww - uw) / (2 * m2))",
         ["centroid_rules"]),
     "cell centroid without the density": (
-        "ccdm/centroid_rules.h", "rw = 0.5 * (r + remesh.rho[star.id[next]]);", "rw = r;", ["centroid_rules"]),
+        "ccdm/centroid_rules.h", "rw = 0.5 * (r + remesh.rho[star.id[k + 1]]);", "rw = r;", ["centroid_rules"]),
     "momentum with the wrong sign": (
         "ccdm/centroid_rules.h", "(x - last[v]) * momentum", "(last[v] - x) * momentum", ["centroid_rules"]),
     "corner that is none": (

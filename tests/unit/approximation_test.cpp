@@ -83,6 +83,7 @@ TEST(Approximation, BringsTheRemeshCloser)
 {
     const Model model = meshes::MakeModel(Spiked(), 400, 180);
     double before = 0, after = 0;
+    // The gain is 4 to 20 percent from seed to seed.
     for (unsigned seed = 1; seed <= 16; ++seed) {
         Remesh r = Coarse(model, 0, seed);
         const double start = Stray(model, r);

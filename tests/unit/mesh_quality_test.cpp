@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vcg/complex/algorithms/ccdm/geometry.h>
+
 #include "support/meshes.h"
 
 namespace mesh_quality_test {
@@ -126,20 +128,51 @@ TEST(MeshQuality, DistanceOfParallelSheets)
     EXPECT_EQ(vcg::tri::MeshQuality<MeshD>::Distance(a, a, 5000).hausdorff, 0);
 }
 
+vcg::tri::TriangleSoup Soup(const shapes::Shape &s)
+{
+    vcg::tri::TriangleSoup r;
+    for (const shapes::P &p : s.points)
+        r.point.push_back({p[0], p[1], p[2]});
+    for (const shapes::F &f : s.faces)
+        r.face.push_back({f[0], f[1], f[2]});
+    return r;
+}
+
+TEST(TriangleTree, FindsTheNearestTriangle)
+{
+    // The last has triangles that are next to needles.
+    shapes::Shape squeezed = shapes::Bumpy(3);
+    for (auto &p : squeezed.points)
+        p[2] *= 1e-7;
+    for (const shapes::Shape &shape : {shapes::Bumpy(3), shapes::HighGenus(1), squeezed}) {
+        const vcg::tri::TriangleSoup soup = Soup(shape);
+        const vcg::tri::TriangleTree tree(soup);
+        vcg::ccdm::Random random(3);
+        int hint = -1;
+        for (int i = 0; i < 500; ++i) {
+            const double x = 3 * random.Unit() - 1.5, y = 3 * random.Unit() - 1.5, z = 3 * random.Unit() - 1.5;
+            double nearest = 1e300;
+            for (const auto &f : soup.face) {
+                const auto &a = soup.point[f[0]], &b = soup.point[f[1]], &c = soup.point[f[2]];
+                const vcg::ccdm::Point origin(a[0], a[1], a[2]);
+                nearest = std::min(nearest, vcg::ccdm::NearestOnTriangle(
+                                                origin, vcg::ccdm::Point(b[0], b[1], b[2]) - origin,
+                                                vcg::ccdm::Point(c[0], c[1], c[2]) - origin, vcg::ccdm::Point(x, y, z))
+                                                .squaredDistance);
+            }
+            const double found = tree.SquaredDistance({x, y, z}, hint);
+            ASSERT_NEAR(found, nearest, 1e-9 * nearest);
+            ASSERT_EQ(tree.SquaredDistanceFrom(hint, {x, y, z}), found);
+        }
+    }
+}
+
 TEST(DeviationMeter, FindsAPitInAPlateau)
 {
     // Everywhere nearly as far as at the furthest place, in each of 128 faces.
     for (const double gap : {0.02, 0.05, 0.1}) {
-        const auto soup = [](const shapes::Shape &s) {
-            vcg::tri::TriangleSoup r;
-            for (const shapes::P &p : s.points)
-                r.point.push_back({p[0], p[1], p[2]});
-            for (const shapes::F &f : s.faces)
-                r.face.push_back({f[0], f[1], f[2]});
-            return r;
-        };
-        const vcg::tri::TriangleSoup plate = soup(shapes::FlatGrid(8));
-        vcg::tri::TriangleSoup pitted = soup(shapes::FlatGrid(300));
+        const vcg::tri::TriangleSoup plate = Soup(shapes::FlatGrid(8));
+        vcg::tri::TriangleSoup pitted = Soup(shapes::FlatGrid(300));
         constexpr double x0 = 0.46, y0 = 0.54;
         for (auto &p : pitted.point)
             p[2] = gap * (1 + 0.3 * std::max(0.0, 1 - std::hypot(p[0] - x0, p[1] - y0) / 0.012));

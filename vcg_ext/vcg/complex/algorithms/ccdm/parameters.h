@@ -94,7 +94,8 @@ struct Params {
     /// the two parts. The vertex count is that of the whole result; errors and lengths are about the remeshed part.
     /// Unit: none. Range: true or false. Default: false. Source: selection.h.
     bool selectedFacesOnly = false;
-    /// Size of the perturbation. The accelerated optimiser starts at half of it and fades it out.
+    /// Size of the perturbation. The accelerated optimiser begins with about a third of it, half of
+    /// that after a coarse level, and fades it out.
     /// Unit: mean length of a vertex's edges. Range: [0, 1]. Default: 0.2. Source: paper, section 3.4, lambda of
     /// equation (4).
     double lambda = 0.2;

@@ -140,9 +140,9 @@ private:
     /// together with moves 3 % were beyond it, of the others 30 %; and 3 and 20 % began with less than half the angle.
     static constexpr double LongFlip = 4;
     static constexpr std::size_t Few = 30;
-    /// What a step of a search gains at least, as a difference of cosines: the second until none does or a few
-    /// triangles are left. Measured: with less from the start, small angles between features that are close together
-    /// are spread without end while others wait.
+    /// What a step of a search gains at least, as a difference of cosines: the second in a call's first rounds,
+    /// until none does or a few triangles are left. Measured: with less from the start, small angles between features
+    /// that are close together are spread without end while others wait.
     static constexpr double LeastGain = 1e-6, FairGain = 1e-3;
     static constexpr std::size_t MostTried = 96; // of a star: at the tip of needles there can be many hundreds
     static constexpr double FoldCosine = -0.8660254037844387; // of 150 degrees

@@ -133,7 +133,10 @@ public:
             const Corners c = {soup.point[f[0]], soup.point[f[1]], soup.point[f[2]]};
             const Vector normal = (c[1] - c[0]) ^ (c[2] - c[0]);
             _corner.push_back(c);
-            _plane.push_back({normal, normal.SquaredNorm()});
+            const double longest =
+                std::max({(c[1] - c[0]).SquaredNorm(), (c[2] - c[1]).SquaredNorm(), (c[0] - c[2]).SquaredNorm()});
+            const bool needle = normal.SquaredNorm() <= NeedleSquared * longest * longest;
+            _plane.push_back({normal, needle ? 0 : normal.SquaredNorm()});
         }
         _face = std::move(order);
     }
@@ -142,7 +145,7 @@ public:
     /// (-1: none) and becomes that of the nearest.
     double SquaredDistance(const Vector &p, int &hint) const
     {
-        double best = hint >= 0 ? SquaredDistance(p, _plane[hint], _corner[hint], Infinity) : Infinity;
+        double best = hint >= 0 ? SquaredDistance(p, _plane[hint], _corner[hint], Unbounded) : Unbounded;
         struct Open {
             int node;
             double away;
@@ -177,7 +180,7 @@ public:
     /// Squared distance of p from the triangle of that number, as `hint` above.
     double SquaredDistanceFrom(int number, const Vector &p) const
     {
-        return SquaredDistance(p, _plane[number], _corner[number], Infinity);
+        return SquaredDistance(p, _plane[number], _corner[number], Unbounded);
     }
 
     /// Calls visit(face) for the faces whose boxes may overlap that of a triangle.
@@ -228,14 +231,15 @@ private:
         int count = 0; // leaf: number of triangles; else 0
     };
     using Corners = std::array<Vector, 3>;
-    std::vector<Node> _node;
     struct Plane {
-        Vector normal; // twice the area long
-        double squared = 0;
+        Vector normal;      // twice the area long
+        double squared = 0; // that of its length; 0 for needles, whose normal is mostly rounding
     };
-    static constexpr double Infinity = std::numeric_limits<double>::max();
+    static constexpr double Unbounded = std::numeric_limits<double>::max();
+    static constexpr double NeedleSquared = 1e-24; // (twice the area over the squared longest side), squared
+    std::vector<Node> _node;
     std::vector<Corners> _corner;
-    std::vector<Plane> _plane; // of those
+    std::vector<Plane> _plane; // of the triangles of those corners
     std::vector<int> _face;    // of the soup, for each of those
 
     static double Away(const Node &n, const Vector &p)
@@ -447,8 +451,8 @@ private:
         const double radius =
             std::sqrt(std::max({(a - middle).SquaredNorm(), (b - middle).SquaredNorm(), (c - middle).SquaredNorm()}));
         Part part = {std::sqrt(Query(middle)), 0, _queriesLeft--, a, b, c};
-        // The distance changes by no more than the way; and that from one triangle, the middle's nearest, which is
-        // convex, is largest in a corner.
+        // The distance changes by no more than the way. That from one triangle is convex, so it is largest in a corner;
+        // the middle's nearest triangle is taken.
         part.most =
             std::min(part.distance + radius,
                      std::sqrt(std::max({_tree.SquaredDistanceFrom(_hint, a), _tree.SquaredDistanceFrom(_hint, b),
