@@ -40,8 +40,8 @@ def given_distance(remesh, _):
 
 
 def close_features(remesh, _):
-    # The share of one seed is between 0.6 and 1.
-    few = [remesh("plate.ply", "-n", 600, "--seed", seed) for seed in range(1, 5)]
+    # The share of one seed is between 0.6 and 1, that of sixteen 0.86.
+    few = [remesh("plate.ply", "-n", 600, "--seed", seed) for seed in range(1, 17)]
     assert sum(below(r, "close_features", "thin_part") for r in few) > 0.85 * sum(map(below, few)) > 0
     wanted = max(place["vertices"] for place in few[0]["narrow"]["places"])
     assert below(remesh("plate.ply", "-n", 2 * int(wanted)), "close_features", "thin_part") == 0
@@ -60,7 +60,7 @@ def better_angles(remesh, _):
 
 def too_long(remesh, _):
     """By the work done; times depend on who else is busy."""
-    few, default = remesh("bumpy.ply", "-n", 1500, "--global-iterations", 6), remesh("bumpy.ply", "-n", 1500)
+    few, default = remesh("bumpy.ply", "-n", 1500, "--global-iterations", 4), remesh("bumpy.ply", "-n", 1500)
     assert few["relocations"] < 0.5 * default["relocations"]
     assert few["result"]["angle_min_avg"] < default["result"]["angle_min_avg"] - 0.1
 

@@ -102,7 +102,7 @@ void AddTarget(CLI::App &app, vcg::ccdm::Params &p)
         ->group(group);
     AddNumber(app, "--max-error", p.maxError, {1e-12, 1, "above 0 up to 1"},
               "largest distance between input and result, relative to the input's bounding-box diagonal, above 0 up to "
-              "1; the fewest vertices that reach it are looked for in up to 8 runs")
+              "1; few vertices that reach it are looked for in up to 8 runs")
         ->group(group);
 }
 
