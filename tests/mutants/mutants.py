@@ -36,7 +36,7 @@ FAULTS = {
     "cell centroid without the density": (
         "ccdm/centroid_rules.h", "rw = 0.5 * (r + remesh.rho[star.id[k + 1]]);", "rw = r;", ["centroid_rules"]),
     "momentum with the wrong sign": (
-        "ccdm/centroid_rules.h", "(x - last[v]) * momentum", "(last[v] - x) * momentum", ["centroid_rules"]),
+        "ccdm/centroid_rules.h", "(x - last[v]) * Momentum", "(last[v] - x) * Momentum", ["centroid_rules"]),
     "corner that is none": (
         "ccdm/feature_graph.h", "_isCorner[v] = Degree(v) != 0 && Degree(v) != 2;",
         "_isCorner[v] = Degree(v) != 0 && Degree(v) > 2;", ["feature_graph"]),

@@ -161,7 +161,7 @@ TEST(HeavyBall, ConvergesToTheRulesFixedPointSooner)
         for (int i = 0; i < 3; ++i)
             relocator.Sweep(Perturbation{0.5, random.Bits()});
         std::vector<Point> last = r.position;
-        const HeavyBall<CellCentroid> pull = {{r, true}, {{r, true}}, 0.52, r.position, last};
+        const HeavyBall<CellCentroid> pull = {{r, true}, {{r, true}}, r.position, last};
         for (int i = 0; i < 30; ++i) {
             flipper.Run(r);
             if (heavy)

@@ -109,8 +109,7 @@ TEST(AddedRule, GoesThroughTheOptimisersSteps)
         Relocator relocator(s.model, s.remesh);
         DelaunayFlipper flipper(workers);
         std::vector<Point> last = s.remesh.position;
-        const HeavyBall<examples::NeighbourMean> pull = {
-            {s.remesh, true}, {{s.remesh, true}}, 0.52, s.remesh.position, last};
+        const HeavyBall<examples::NeighbourMean> pull = {{s.remesh, true}, {{s.remesh, true}}, s.remesh.position, last};
         for (int i = 0; i < 40; ++i) {
             flipper.Run(s.remesh);
             relocator.Sweep(pull);

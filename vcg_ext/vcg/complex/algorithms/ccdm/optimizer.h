@@ -250,7 +250,7 @@ private:
     bool AccelerateBy(const Rule &rule, int count, double noise, double begin, double end, const Progress &progress)
     {
         std::vector<Point> last = _remesh.position;
-        const HeavyBall<Rule> pull = {rule, {{_remesh, _model.density.uniform}}, Momentum, _remesh.position, last};
+        const HeavyBall<Rule> pull = {rule, {{_remesh, _model.density.uniform}}, _remesh.position, last};
         Flip();
         for (int i = 0; i < count; ++i) {
             const double size = noise * (1 - i / (0.6 * count));
@@ -284,10 +284,6 @@ private:
         return progress(1);
     }
 
-    // Along smooth modes a step grows to pull / (1 - momentum) of the rule's. Measured for the cell centroid: with 4.5
-    // two thirds of the sweeps are needed that 3.75 needs, however it is shared between momentum and pull; from 4.7 on
-    // the vertices do not come to rest and angles are lost.
-    static constexpr double Momentum = 0.52;
     // Measured: fewer relocations after the refinement lower the angles, more cost time; more at the coarse level raise
     // them where the surface has no features, by 0.1 degrees. Shares from 2.15 to 2.25 there come out alike in the mean
     // over seeds.

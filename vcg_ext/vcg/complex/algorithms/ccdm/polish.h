@@ -48,14 +48,20 @@ public:
         // A triangle that could not be helped twice is left alone; thin parts may have nothing else.
         std::unordered_map<int, int> failures;
         _gain = FairGain;
-        bool stuck = false;
+        bool improved = true; // in the last round
         for (int round = 0;; ++round) {
             _bad.erase(std::remove_if(_bad.begin(), _bad.end(), [&](int t) { return !small(t); }), _bad.end());
-            if (_bad.empty() || round == rounds || stuck)
+            if (!improved) {
+                if (_gain == LeastGain)
+                    break;
+                _gain = LeastGain;
+                failures.clear();
+            }
+            if (_bad.empty() || round == rounds)
                 break;
             if (_bad.size() <= Few)
                 _gain = LeastGain;
-            bool improved = false;
+            improved = false;
             for (const int t : _bad)
                 if (small(t) && _failuresLeft > 0 && failures[t] < 2) {
                     const bool helped = Improve(t);
@@ -65,11 +71,6 @@ public:
                     improved = improved || helped;
                 }
             LookAroundChanged();
-            stuck = !improved && _gain == LeastGain;
-            if (!improved) {
-                _gain = LeastGain;
-                failures.clear();
-            }
         }
         return static_cast<int>(_bad.size());
     }
@@ -301,7 +302,7 @@ private:
         if (thorough || LargestCosineAround(vertex) < std::sqrt((1 + before) / 2)) {
             for (const int v : vertex)
                 Shift(v);
-            if (LargestCosineAround(vertex) < before - 1e-6)
+            if (LargestCosineAround(vertex) < before - LeastGain)
                 return true;
         }
         for (int i = 0; i < 4; ++i)
@@ -317,7 +318,7 @@ private:
         const Hinge h(_remesh, s);
         const double before = std::max(ccdm::LargestCosine(h.a, h.p, h.q), ccdm::LargestCosine(h.b, h.p, h.q));
         const double after = std::max(ccdm::LargestCosine(h.a, h.p, h.b), ccdm::LargestCosine(h.a, h.b, h.q));
-        if (!(after < before - 1e-6) || !MayFlip(_remesh, s, h))
+        if (!(after < before - LeastGain) || !MayFlip(_remesh, s, h))
             return false;
         // The new edge strays from the surface no further than the old one, or than the limit.
         const double far = std::max(SquaredDistanceNear(_model, _remesh, _remesh.mesh.Tail(s), (h.p + h.q) / 2),

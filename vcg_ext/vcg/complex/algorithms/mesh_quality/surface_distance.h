@@ -135,8 +135,8 @@ public:
             _corner.push_back(c);
             const double longest =
                 std::max({(c[1] - c[0]).SquaredNorm(), (c[2] - c[1]).SquaredNorm(), (c[0] - c[2]).SquaredNorm()});
-            const bool needle = normal.SquaredNorm() <= NeedleSquared * longest * longest;
-            _plane.push_back({normal, needle ? 0 : normal.SquaredNorm()});
+            const double squared = normal.SquaredNorm();
+            _plane.push_back({normal, squared > NeedleSquared * longest * longest ? squared : 0});
         }
         _face = std::move(order);
     }
@@ -145,7 +145,7 @@ public:
     /// (-1: none) and becomes that of the nearest.
     double SquaredDistance(const Vector &p, int &hint) const
     {
-        double best = hint >= 0 ? SquaredDistance(p, _plane[hint], _corner[hint], Unbounded) : Unbounded;
+        double best = hint >= 0 ? SquaredDistanceFrom(hint, p) : Unbounded;
         struct Open {
             int node;
             double away;
