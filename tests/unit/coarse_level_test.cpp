@@ -39,7 +39,7 @@ Remesh Sunk(const Model &model, double depth)
 TEST(CoarseLevel, ATriangleAcrossAGapTellsThatPartsAreLost)
 {
     const Model model = meshes::MakeModel(shapes::Sphere(5), 500, 180);
-    const CoarseLevel level(model);
+    const CoarseLevel level(model, meshes::Alone());
     EXPECT_FALSE(level.MayLackParts(Sunk(model, 0.6), 0));
     EXPECT_TRUE(level.MayLackParts(Sunk(model, 0.8), 0));
 }
@@ -47,7 +47,7 @@ TEST(CoarseLevel, ATriangleAcrossAGapTellsThatPartsAreLost)
 TEST(CoarseLevel, FewerGapsCountForMoreThanAngles)
 {
     const Model model = meshes::MakeModel(shapes::Sphere(5), 500, 180);
-    const CoarseLevel level(model);
+    const CoarseLevel level(model, meshes::Alone());
     const Remesh gap = Sunk(model, 0.8), none = Sunk(model, 0.4);
     EXPECT_TRUE(level.IsSurpassed(gap, none));
     EXPECT_FALSE(level.IsSurpassed(none, gap));
@@ -57,7 +57,7 @@ TEST(CoarseLevel, FewerGapsCountForMoreThanAngles)
 TEST(CoarseLevel, ASmallAngleTellsThatPartsAreLost)
 {
     const Model model = meshes::MakeModel(shapes::Sphere(4), 2562, 180);
-    const CoarseLevel level(model);
+    const CoarseLevel level(model, meshes::Alone());
     const Remesh whole = meshes::AsRemesh(model);
     EXPECT_FALSE(level.MayLackParts(whole, 40));
     EXPECT_TRUE(level.MayLackParts(whole, 59));

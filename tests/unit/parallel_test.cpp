@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <vcg/complex/algorithms/ccdm/parallel.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -44,6 +46,24 @@ TEST(Workers, HandOnAnException)
     int sum = 0;
     workers.For(1, [&](int, int) { ++sum; });
     EXPECT_EQ(sum, 1) << "and work on afterwards";
+}
+
+TEST(SortInParts, SortsOnAnyNumberOfThreads)
+{
+    Random random(1);
+    for (const int count : {0, 1, 100, Chunks::Size, 50000}) {
+        std::vector<std::uint64_t> items(count);
+        for (std::uint64_t &x : items)
+            x = random.Bits();
+        std::vector<std::uint64_t> expected = items;
+        std::sort(expected.begin(), expected.end());
+        for (const int threads : {1, 2, 3, 5, 8}) {
+            Workers workers(threads);
+            std::vector<std::uint64_t> sorted = items;
+            SortInParts(workers, sorted, std::less<>());
+            EXPECT_EQ(sorted, expected) << count << " on " << threads;
+        }
+    }
 }
 
 TEST(PatchSchedule, VisitsEveryVertexOnceAndNeverTwoNeighboursAtATime)

@@ -114,7 +114,7 @@ TEST(ExtremeCapture, PutsAVertexOnATip)
     const double off = Norm(r.position[tip] - model.surface.position[tip]);
     ASSERT_GT(off, 0);
     Probes probes(model, r, meshes::Alone());
-    const std::vector<int> captured = ExtremeCapture(model, r, probes).Run(5, 10);
+    const std::vector<int> captured = ExtremeCapture(model, r, probes, meshes::Alone()).Run(5, 10);
     ASSERT_EQ(captured.size(), 1U);
     EXPECT_EQ(Norm(r.position[captured[0]] - model.surface.position[tip]), 0);
 }
@@ -133,7 +133,7 @@ double AfterCapture(double lift, double minAngle)
     const Point tip = r.position[lifted];
     r.position[lifted] /= 1 + lift * h;
     Probes probes(model, r, meshes::Alone());
-    ExtremeCapture(model, r, probes).Run(5, minAngle);
+    ExtremeCapture(model, r, probes, meshes::Alone()).Run(5, minAngle);
     for (int t = 0; t < r.mesh.TriangleCount(); ++t)
         EXPECT_LE(LargestCosine(r, t), std::cos(25 * Pi / 180));
     double nearest = 1e300;
@@ -151,6 +151,42 @@ TEST(ExtremeCapture, APartThatIsMissingMayHaveSmallerAngles)
     EXPECT_GT(AfterCapture(3.5, 50), 0.5);
 }
 
+TEST(ExtremeCapture, CapturesInSeveralRegionsOnAnyNumberOfThreads)
+{
+    constexpr int every = 997;
+    shapes::Shape s = shapes::Sphere(6);
+    const int count = static_cast<int>(s.points.size());
+    ASSERT_GT(Regions::Count(count), 1);
+    const double h = meshes::MakeModel(s, count, 180).density.spacing[0], lift = 1 + 0.5 * h;
+    for (int v = every; v < count; v += every)
+        for (double &x : s.points[v])
+            x *= lift;
+    const Model model = meshes::MakeModel(s, count, 180);
+    std::vector<Point> first;
+    for (const int threads : {1, 2, 4}) {
+        Workers workers(threads);
+        Remesh r = meshes::AsRemesh(model);
+        std::vector<Point> tips;
+        for (int v = every; v < count; v += every) {
+            tips.push_back(r.position[v]);
+            r.position[v] /= lift;
+        }
+        Probes probes(model, r, workers);
+        const std::vector<int> captured = ExtremeCapture(model, r, probes, workers).Run(5, 25);
+        EXPECT_GE(captured.size(), tips.size());
+        for (const Point &tip : tips) {
+            double nearest = 1e300;
+            for (const int v : captured)
+                nearest = std::min(nearest, Norm(r.position[v] - tip));
+            EXPECT_LT(nearest, 0.3 * h) << "it was 0.5";
+        }
+        EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
+        if (threads == 1)
+            first = r.position;
+        EXPECT_EQ(r.position, first) << threads;
+    }
+}
+
 TEST(ExtremeCapture, TakesWhatLooksFarOnlyFromTheWrongSheetForNear)
 {
     // Every probe of a mesh that holds all vertices of the input is at distance zero, however crumpled that is.
@@ -158,7 +194,7 @@ TEST(ExtremeCapture, TakesWhatLooksFarOnlyFromTheWrongSheetForNear)
     Remesh r = meshes::AsRemesh(model);
     Probes probes(model, r, meshes::Alone());
     const std::vector<Point> before = r.position;
-    EXPECT_TRUE(ExtremeCapture(model, r, probes).Run(5, 25).empty());
+    EXPECT_TRUE(ExtremeCapture(model, r, probes, meshes::Alone()).Run(5, 25).empty());
     for (std::size_t v = 0; v < before.size(); ++v)
         EXPECT_EQ(Norm(r.position[v] - before[v]), 0);
 }

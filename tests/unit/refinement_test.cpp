@@ -147,7 +147,7 @@ TEST(Refinement, SplitsAndSorts)
     Refinement refinement(model, r);
     refinement.SplitLongest(3, meshes::Alone());
     EXPECT_EQ(r.VertexCount(), 645);
-    refinement.Sort();
+    refinement.Sort(meshes::Alone());
     EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
     EXPECT_EQ(VerifyTriangulation(r.mesh).counts.euler, 2);
 }

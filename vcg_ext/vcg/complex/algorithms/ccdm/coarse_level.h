@@ -3,6 +3,7 @@
 #define VCG_CCDM_COARSE_LEVEL_H
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/angle_polish.h>
@@ -18,7 +19,9 @@ namespace ccdm {
 class CoarseLevel
 {
 public:
-    explicit CoarseLevel(const Model &model) : _model(model), _reference(model.surface.mesh) {}
+    CoarseLevel(const Model &model, Workers &workers) : _model(model), _reference(model.surface.mesh), _workers(workers)
+    {
+    }
 
     /// Whether a result of so many vertices gains by it. Creases are better met at full resolution, unless they are a
     /// few in a surface that has none otherwise; and so are boundaries with more corners than the coarse level has
@@ -89,13 +92,14 @@ private:
 
     const Model &_model;
     const Triangulation &_reference;
+    Workers &_workers;
 
     // The triangles whose middle lies far off the surface around their corners: what they join are two parts.
     int GapsSpanned(const Remesh &remesh) const
     {
-        const std::vector<Triangle> &all = remesh.mesh.triangle;
-        return static_cast<int>(
-            std::count_if(all.begin(), all.end(), [&](const Triangle &T) { return SpansGap(remesh, T); }));
+        const Triangulation &m = remesh.mesh;
+        const auto spans = [&](int t) { return SpansGap(remesh, m.triangle[t]); };
+        return static_cast<int>(Chunks::Where(_workers, m.TriangleCount(), spans).size());
     }
 
     bool SpansGap(const Remesh &remesh, const Triangle &T) const
@@ -128,17 +132,24 @@ private:
     }
 
     // In degrees, of the triangles that no feature touches.
-    static double SmallestFreeAngle(const Remesh &remesh)
+    double SmallestFreeAngle(const Remesh &remesh) const
     {
+        const std::vector<Point> &x = remesh.position;
+        struct Least {
+            double angle = Pi;
+        };
+        const auto look = [&](int first, int last, Least &least) {
+            for (int t = first; t < last; ++t) {
+                const Triangle &T = remesh.mesh.triangle[t];
+                const bool free = std::all_of(std::begin(T.v), std::end(T.v),
+                                              [&](int v) { return remesh.place[v].kind == VertexKind::Free; });
+                if (free)
+                    least.angle = std::min(least.angle, SmallestAngle(x[T.v[0]], x[T.v[1]], x[T.v[2]]));
+            }
+        };
         double least = Pi;
-        for (const Triangle &T : remesh.mesh.triangle) {
-            bool free = true;
-            for (const int v : T.v)
-                free = free && remesh.place[v].kind == VertexKind::Free;
-            if (free)
-                least = std::min(
-                    least, SmallestAngle(remesh.position[T.v[0]], remesh.position[T.v[1]], remesh.position[T.v[2]]));
-        }
+        for (const Least &part : Chunks::Collect<Least>(_workers, remesh.mesh.TriangleCount(), look))
+            least = std::min(least, part.angle);
         return least * 180 / Pi;
     }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <cstdint>
 #include <vector>
 
@@ -487,7 +488,7 @@ private:
                 order[i] = {closest / (h * h), i};
             }
         });
-        std::sort(order.begin(), order.end());
+        SortInParts(workers, order, std::less<>());
         std::vector<char> gone(samples.size(), 0);
         int left = static_cast<int>(samples.size());
         for (int pass = 0; pass < 2; ++pass)

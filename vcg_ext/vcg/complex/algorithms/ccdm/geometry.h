@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/parallel.h>
 #include <vcg/complex/algorithms/ccdm/triangulation.h>
 
 namespace vcg {
@@ -164,7 +165,7 @@ struct Bounds {
 };
 
 /// Indices of the points in the order of a space-filling curve through their common cube.
-inline std::vector<int> SpatialOrder(const std::vector<Point> &points)
+inline std::vector<int> SpatialOrder(const std::vector<Point> &points, Workers &workers)
 {
     Bounds box;
     for (const Point &p : points)
@@ -172,10 +173,12 @@ inline std::vector<int> SpatialOrder(const std::vector<Point> &points)
     const Point extent = box.high - box.low;
     const double size = std::max({extent[0], extent[1], extent[2], 1e-300});
     std::vector<std::pair<std::uint64_t, int>> keyed(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i)
-        keyed[i] = {MortonCode((points[i] - box.low) / size), static_cast<int>(i)};
+    Chunks::For(workers, static_cast<int>(points.size()), [&](int first, int last, int) {
+        for (int i = first; i < last; ++i)
+            keyed[i] = {MortonCode((points[i] - box.low) / size), i};
+    });
     // Points in one cell go by their coordinates, so that the order does not depend on the numbering.
-    std::sort(keyed.begin(), keyed.end(), [&](const auto &a, const auto &b) {
+    SortInParts(workers, keyed, [&](const auto &a, const auto &b) {
         if (a.first != b.first)
             return a.first < b.first;
         const Point &p = points[a.second], &q = points[b.second];

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 #include <vcg/complex/algorithms/ccdm/sampling.h>
 #include <vcg/complex/algorithms/ccdm/vertex_removal.h>
@@ -29,9 +30,14 @@ public:
     {
     }
 
+    bool Build(Remesh &out, const Progress &progress)
+    {
+        Workers alone(1);
+        return Build(out, alone, progress);
+    }
     /// The mesh of the samples. More vertices than samples remain where topology asks for them. False
     /// when `progress` stopped it.
-    bool Build(Remesh &out, const Progress &progress)
+    bool Build(Remesh &out, Workers &workers, const Progress &progress)
     {
         _mesh = _surface.mesh;
         for (int t = 0; t < _mesh.TriangleCount(); ++t)
@@ -45,14 +51,14 @@ public:
             _place[v].face = _mesh.incident[v];
         PlaceOriginals();
         InsertCurveSamples();
-        InsertFaceSamples();
+        InsertFaceSamples(workers);
         if (!progress(0.3))
             return false;
         const int wanted = static_cast<int>(std::count(_kept.begin(), _kept.end(), char(1)));
-        VertexRemoval removal(_mesh, _position, _place);
+        VertexRemoval removal(_mesh, _position, _place, RegionOfEach(), workers);
         if (!removal.RemoveAll(_kept, wanted, [&](double x) { return progress(0.3 + 0.7 * x); }))
             return false;
-        Finish(out);
+        Finish(out, workers);
         return true;
     }
 
@@ -219,7 +225,7 @@ private:
         return best;
     }
 
-    void InsertFaceSamples()
+    void InsertFaceSamples(Workers &workers)
     {
         // Face by face, and along a curve inside each face, so that every walk is short.
         std::vector<std::pair<std::uint64_t, int>> order(_samples.onFaces.size());
@@ -227,7 +233,7 @@ private:
             const SurfacePoint &p = _samples.onFaces[i];
             order[i] = {MortonCode(Point(p.weight[1], p.weight[2], 0)), static_cast<int>(i)};
         }
-        std::sort(order.begin(), order.end(), [&](const auto &a, const auto &b) {
+        SortInParts(workers, order, [&](const auto &a, const auto &b) {
             const int fa = _samples.onFaces[a.second].face, fb = _samples.onFaces[b.second].face;
             return fa != fb ? fa < fb : a < b;
         });
@@ -306,7 +312,17 @@ private:
                -1e-10 * std::sqrt(SquaredNorm(ap) * SquaredNorm(aq) * SquaredNorm(bp) * SquaredNorm(bq));
     }
 
-    void Finish(Remesh &out)
+    // The input's vertices are numbered along a space-filling curve; what is inserted goes with its face.
+    std::vector<int> RegionOfEach() const
+    {
+        std::vector<int> region(_position.size());
+        for (std::size_t v = 0; v < region.size(); ++v)
+            region[v] = Regions::Of(static_cast<int>(v) < _originals ? static_cast<int>(v)
+                                                                     : _surface.mesh.triangle[_place[v].face].v[0]);
+        return region;
+    }
+
+    void Finish(Remesh &out, Workers &workers)
     {
         std::vector<int> alive;
         std::vector<Point> where;
@@ -315,22 +331,26 @@ private:
                 alive.push_back(v);
                 where.push_back(_position[v]);
             }
-        std::vector<int> order = SpatialOrder(where);
+        std::vector<int> order = SpatialOrder(where, workers);
         for (int &k : order)
             k = alive[k];
         _mesh.Compact(order);
-        out.position.clear();
-        out.place.clear();
-        out.rho.clear();
-        for (const int v : order) {
-            out.position.push_back(_position[v]);
-            out.place.push_back(_place[v]);
-            SurfacePoint p;
-            p.face = _place[v].face;
-            const Foot foot = _surface.NearestOn(p.face, _position[v]);
-            std::copy(foot.weight, foot.weight + 3, p.weight);
-            out.rho.push_back(_surface.Interpolate(p, _density.rho));
-        }
+        const std::size_t count = order.size();
+        out.position.resize(count);
+        out.place.resize(count);
+        out.rho.resize(count);
+        Chunks::For(workers, static_cast<int>(count), [&](int first, int last, int) {
+            for (int k = first; k < last; ++k) {
+                const int v = order[k];
+                out.position[k] = _position[v];
+                out.place[k] = _place[v];
+                SurfacePoint p;
+                p.face = _place[v].face;
+                const Foot foot = _surface.NearestOn(p.face, _position[v]);
+                std::copy(foot.weight, foot.weight + 3, p.weight);
+                out.rho[k] = _surface.Interpolate(p, _density.rho);
+            }
+        });
         for (Triangle &T : _mesh.triangle)
             T.label = -1;
         out.mesh = std::move(_mesh);

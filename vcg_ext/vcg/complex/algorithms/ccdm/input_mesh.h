@@ -71,7 +71,7 @@ public:
 
     InputMesh(const MeshTables &input, Workers &workers)
     {
-        if (Select(input) && CheckEdges(workers) && CheckVertices(workers)) {
+        if (Select(input, workers) && CheckEdges(workers) && CheckVertices(workers)) {
             mesh.marked = Renumbered(input, input.marked);
             mesh.locked = Renumbered(input, input.locked);
             CheckArea();
@@ -118,7 +118,7 @@ private:
         return false;
     }
 
-    bool Select(const MeshTables &input)
+    bool Select(const MeshTables &input, Workers &workers)
     {
         _name = input.vertexName;
         if (input.face.empty())
@@ -167,18 +167,18 @@ private:
             return Refuse(diagonal > 0 ? "the mesh is too large for its coordinates" : "all vertices lie at one point");
         _center = (box.low + box.high) * 0.5;
         _scale = std::exp2(std::ceil(std::log2(diagonal)));
-        Number(input, kept, faces);
+        Number(input, kept, faces, workers);
         return true;
     }
 
-    void Number(const MeshTables &input, const std::vector<int> &kept, const std::vector<int> &faces)
+    void Number(const MeshTables &input, const std::vector<int> &kept, const std::vector<int> &faces, Workers &workers)
     {
         std::vector<Point> unit;
         unit.reserve(kept.size());
         for (const int v : kept)
             unit.push_back((input.position[v] - _center) / _scale);
         std::vector<int> newIndex(input.position.size(), -1);
-        for (const int k : SpatialOrder(unit)) {
+        for (const int k : SpatialOrder(unit, workers)) {
             newIndex[kept[k]] = static_cast<int>(original.size());
             original.push_back(kept[k]);
             mesh.position.push_back(unit[k]);

@@ -54,7 +54,7 @@ public:
         const double target = MinAngle(_params);
         std::vector<int> tips;
         const std::function<void()> step[] = {
-            [&] { tips = ExtremeCapture(_model, _remesh, _probes).Run(FarTip, 25); },
+            [&] { tips = ExtremeCapture(_model, _remesh, _probes, _workers).Run(FarTip, 25); },
             [&] { polish.Unfold(10); },
             [&] {
                 // Measured: the default costs hardly any angle; 1 takes up to a degree.
@@ -85,7 +85,7 @@ public:
                     _schedule.Changed();
             },
             // What else can be captured without an angle below the target, unless it is a part of the shape.
-            [&] { ExtremeCapture(_model, _remesh, _probes).Run(FurtherTip, target); },
+            [&] { ExtremeCapture(_model, _remesh, _probes, _workers).Run(FurtherTip, target); },
             [&] { LevelChords(target); },
         };
         double done = 0;
@@ -233,7 +233,7 @@ private:
     // Once vertices were added or taken away.
     void Rearrange(Refinement &refinement)
     {
-        refinement.Sort();
+        refinement.Sort(_workers);
         _remesh.mesh.KeepRings();
         _schedule.Changed();
     }

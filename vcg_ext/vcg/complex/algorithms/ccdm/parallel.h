@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -174,9 +175,16 @@ struct Chunks {
     template <class Item, class Visit>
     static std::vector<Item> CollectList(Workers &workers, int count, const Visit &visit)
     {
+        std::vector<std::vector<Item>> parts = Collect<std::vector<Item>>(workers, count, visit);
+        std::size_t size = 0;
+        for (const std::vector<Item> &part : parts)
+            size += part.size();
         std::vector<Item> all;
-        for (const std::vector<Item> &part : Collect<std::vector<Item>>(workers, count, visit))
+        all.reserve(size);
+        for (std::vector<Item> &part : parts) {
             all.insert(all.end(), part.begin(), part.end());
+            part = {}; // both at a time would be twice the memory
+        }
         return all;
     }
 
@@ -192,6 +200,22 @@ struct Chunks {
         return CollectList<int>(workers, count, look);
     }
 };
+
+/// Sorts by an order in which no two items are equal, so that the result is the same for any number of threads.
+template <class Item, class Less>
+void SortInParts(Workers &workers, std::vector<Item> &items, const Less &less)
+{
+    const std::size_t parts = items.size() < Chunks::Size ? 1 : static_cast<std::size_t>(workers.Count());
+    const auto begin = [&](std::size_t part) {
+        return items.begin() + static_cast<std::ptrdiff_t>(items.size() * std::min(part, parts) / parts);
+    };
+    workers.For(static_cast<int>(parts), [&](int k, int) { std::sort(begin(k), begin(k + 1), less); });
+    for (std::size_t width = 1; width < parts; width *= 2)
+        workers.For(static_cast<int>((parts + 2 * width - 1) / (2 * width)), [&](int k, int) {
+            const std::size_t first = 2 * width * k;
+            std::inplace_merge(begin(first), begin(first + width), begin(first + 2 * width), less);
+        });
+}
 
 } // namespace ccdm
 } // namespace vcg

@@ -37,6 +37,13 @@ struct Patches {
     static int Count(int vertices) { return (vertices + Size - 1) / Size; }
 };
 
+/// Larger patches, for work that reaches several rings around.
+struct Regions {
+    static constexpr int Size = 32 * Patches::Size;
+    static int Of(int v) { return v / Size; }
+    static int Count(int vertices) { return (vertices + Size - 1) / Size; }
+};
+
 /// The patch that holds all four vertices of an edge's two triangles; -1 if none does, or if the edge has
 /// one triangle only.
 inline int PatchOfHinge(const Remesh &r, Side s)

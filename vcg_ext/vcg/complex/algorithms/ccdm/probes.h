@@ -3,7 +3,10 @@
 #define VCG_CCDM_PROBES_H
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -57,13 +60,19 @@ public:
     /// by on the surface: first from vertex to vertex, then among the triangles around the last.
     std::pair<int, double> Locate(int r, int v) const
     {
+        return Locate(r, v, [](int) { return true; });
+    }
+    /// The same over vertices for which open(vertex) is true.
+    template <class Open>
+    std::pair<int, double> Locate(int r, int v, const Open &open) const
+    {
         const Point &p = _probe[r].point;
         double best = SquaredNorm(_remesh.position[v] - p);
         for (bool moved = true; moved;) {
             moved = false;
             _remesh.mesh.VisitSpokes(v, [&](int o, Side) {
                 const double d = SquaredNorm(_remesh.position[o] - p);
-                if (d < best) {
+                if (d < best && open(o)) {
                     best = d;
                     v = o;
                     moved = true;
@@ -126,35 +135,70 @@ private:
             for (int e = 0; e < 3; ++e)
                 if (m.triangle[t].Constrained(e))
                     onFeature[m.triangle[t].v[Next(e)]] = onFeature[m.triangle[t].v[Prev(e)]] = 1;
-        for (std::size_t v = 0; v < x.size(); ++v)
-            if (!onFeature[v] && m.incident[v] >= 0)
-                _probe.push_back({x[v], m.incident[v], static_cast<int>(v)});
-        m.VisitEdges([&](Side s) {
-            if (m.Mate(s) == NoSide || m.Constrained(s))
-                return;
-            const int a = m.Tail(s), b = m.Head(s);
-            const double h = 0.5 * _model.density.spacing[a], length = Norm(x[b] - x[a]);
-            if (length <= h || TurnAngle(x[a], x[b], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]) < 0.3)
-                return;
-            const int parts = static_cast<int>(std::min(length / h, 1000.0)) + 1;
-            for (int k = 1; k < parts; ++k)
-                _probe.push_back(
-                    {x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), SideTriangle(s), 2 * k < parts ? a : b});
-        });
+        const auto atVertices = [&](int first, int last, std::vector<Probe> &probes) {
+            for (int v = first; v < last; ++v)
+                if (!onFeature[v] && m.incident[v] >= 0)
+                    probes.push_back({x[v], m.incident[v], v});
+        };
+        const auto onEdges = [&](int first, int last, std::vector<Probe> &probes) {
+            m.VisitEdges(first, last, [&](Side s) { LayAlong(s, probes); });
+        };
+        _probe = Chunks::CollectList<Probe>(_workers, m.VertexCount(), atVertices);
+        const std::vector<Probe> more = Chunks::CollectList<Probe>(_workers, m.TriangleCount(), onEdges);
+        _probe.insert(_probe.end(), more.begin(), more.end());
+    }
+
+    void LayAlong(Side s, std::vector<Probe> &probes) const
+    {
+        const Triangulation &m = _model.surface.mesh;
+        const std::vector<Point> &x = _model.surface.position;
+        if (m.Mate(s) == NoSide || m.Constrained(s))
+            return;
+        const int a = m.Tail(s), b = m.Head(s);
+        const double h = 0.5 * _model.density.spacing[a], length = Norm(x[b] - x[a]);
+        if (length <= h || TurnAngle(x[a], x[b], x[m.Opposite(s)], x[m.Opposite(m.Mate(s))]) < 0.3)
+            return;
+        const int parts = static_cast<int>(std::min(length / h, 1000.0)) + 1;
+        for (int k = 1; k < parts; ++k)
+            probes.push_back(
+                {x[a] + (x[b] - x[a]) * (static_cast<double>(k) / parts), SideTriangle(s), 2 * k < parts ? a : b});
+    }
+
+    // The bits of numbers that are not negative are in the order of the numbers.
+    static std::uint32_t OrderedBits(float x)
+    {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &x, sizeof bits);
+        return bits;
+    }
+
+    static void Raise(std::atomic<std::uint64_t> &most, std::uint64_t x)
+    {
+        std::uint64_t seen = most.load(std::memory_order_relaxed);
+        while (seen < x && !most.compare_exchange_weak(seen, x, std::memory_order_relaxed)) {
+        }
     }
 
     // A vertex of the remesh close to each vertex of the input, spread along the input's edges.
     std::vector<int> NearVertices() const
     {
         const Triangulation &m = _model.surface.mesh;
+        // Of each, the squared distance to a vertex and the vertex: the complement of the least, found in any order.
+        std::vector<std::atomic<std::uint64_t>> best(m.VertexCount());
+        Chunks::For(_workers, _remesh.VertexCount(), [&](int first, int last, int) {
+            for (int v = first; v < last; ++v)
+                for (const int r : m.triangle[_remesh.place[v].face].v) {
+                    const auto squared =
+                        static_cast<float>(SquaredNorm(_remesh.position[v] - _model.surface.position[r]));
+                    Raise(best[r],
+                          ~(static_cast<std::uint64_t>(OrderedBits(squared)) << 32 | static_cast<unsigned>(v)));
+                }
+        });
         std::vector<int> near(m.VertexCount(), -1), queue;
-        for (int v = 0; v < _remesh.VertexCount(); ++v)
-            for (const int r : m.triangle[_remesh.place[v].face].v) {
-                const Point &p = _model.surface.position[r];
-                if (near[r] < 0)
-                    queue.push_back(r);
-                if (near[r] < 0 || SquaredNorm(_remesh.position[v] - p) < SquaredNorm(_remesh.position[near[r]] - p))
-                    near[r] = v;
+        for (int r = 0; r < m.VertexCount(); ++r)
+            if (const std::uint64_t found = best[r].load(std::memory_order_relaxed)) {
+                near[r] = static_cast<int>(static_cast<std::uint32_t>(~found));
+                queue.push_back(r);
             }
         for (std::size_t k = 0; k < queue.size(); ++k)
             m.VisitSpokes(queue[k], [&](int o, Side) {

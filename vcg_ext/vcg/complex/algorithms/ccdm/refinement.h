@@ -54,7 +54,7 @@ public:
         CollectSpare(before, spare, crowded);
         _remesh.mesh = Quartered(middle, workers);
         if (!crowded.empty() || _remesh.VertexCount() > most)
-            Remove(crowded, most);
+            Remove(crowded, most, workers);
     }
 
     /// How many vertices Run would lead to, but for those that cannot be taken out.
@@ -107,7 +107,7 @@ public:
     }
 
     /// Numbers vertices and triangles along a space-filling curve.
-    void Sort() { Renumber(SpatialOrder(_remesh.position)); }
+    void Sort(Workers &workers) { Renumber(SpatialOrder(_remesh.position, workers)); }
 
     /// Vertex k becomes what order[k] was; vertices that are not named, which no live triangle may use, are dropped.
     void Renumber(const std::vector<int> &order)
@@ -197,12 +197,13 @@ private:
     }
 
     // `most`: that may be left.
-    void Remove(const std::vector<int> &vertices, int most)
+    void Remove(const std::vector<int> &vertices, int most, Workers &workers)
     {
         std::vector<char> kept(_remesh.position.size(), 1);
         for (const int v : vertices)
             kept[v] = 0;
-        VertexRemoval(_remesh.mesh, _remesh.position, _remesh.place).RemoveAll(kept, most, [](double) { return true; });
+        VertexRemoval removal(_remesh.mesh, _remesh.position, _remesh.place, {}, workers);
+        removal.RemoveAll(kept, most, [](double) { return true; });
         std::vector<int> left;
         for (int v = 0; v < _remesh.VertexCount(); ++v)
             if (_remesh.mesh.incident[v] >= 0)

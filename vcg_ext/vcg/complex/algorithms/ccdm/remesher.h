@@ -104,7 +104,7 @@ private:
     {
         Params params = _params;
         TakeEnoughForComponents(model, params);
-        const CoarseLevel level(model);
+        const CoarseLevel level(model, _workers);
         bool coarse = params.optimizer == OptimizerKind::Accelerated && level.Serves(params.vertexCount);
         for (int growths = 0;;) {
             bool passed = Attempt(model, params, coarse, remesh);
@@ -190,7 +190,7 @@ private:
 
         if (!Begin("building the initial mesh", 8, 20))
             return false;
-        if (!InitialMeshBuilder(model, samples).Build(remesh, [this](double x) { return Advance(x); }))
+        if (!InitialMeshBuilder(model, samples).Build(remesh, _workers, [this](double x) { return Advance(x); }))
             return false;
 
         if (!Begin("optimising", 20, 92))
@@ -377,9 +377,9 @@ private:
         samples.onCurves =
             SampleCurvesWithin(model.surface, model.features, model.density, params.vertexCount - corners, coarse);
         const int featureSamples = static_cast<int>(samples.onCurves.size()) + corners;
-        const int count =
-            coarse ? CoarseLevel(model).Vertices(params.vertexCount, _report.inputTopology.euler, samples.onCurves)
-                   : params.vertexCount;
+        const int count = coarse ? CoarseLevel(model, _workers)
+                                       .Vertices(params.vertexCount, _report.inputTopology.euler, samples.onCurves)
+                                 : params.vertexCount;
         const int rest = std::max(0, count - featureSamples);
         switch (params.sampler) {
         case SamplerKind::Random:

@@ -68,6 +68,36 @@ public:
         Save();
     }
 
+    /// Whether test(vertex) is true for all vertices, of features too, within `rings` rings of triangle t; where it is
+    /// not, no star is looked at.
+    template <class Test>
+    bool AllWithin(int t, int rings, const Test &test)
+    {
+        _seen.resize(_remesh.VertexCount(), 0);
+        std::vector<int> seen;
+        bool all = true;
+        const auto see = [&](int v) {
+            if (_seen[v] == 0)
+                seen.push_back(v);
+            _seen[v] = 1;
+        };
+        for (const int v : _remesh.mesh.triangle[t].v)
+            see(v);
+        std::size_t begin = 0;
+        for (int ring = 0; ring <= rings && all; ++ring)
+            for (const std::size_t end = seen.size(); begin < end && all; ++begin) {
+                all = test(seen[begin]);
+                if (all && ring < rings)
+                    _remesh.mesh.VisitSpokes(seen[begin], [&](int o, Side) {
+                        see(o);
+                        return true;
+                    });
+            }
+        for (const int v : seen)
+            _seen[v] = 0;
+        return all;
+    }
+
     const std::vector<int> &Vertices() const { return _vertex; }
     const std::vector<int> &Triangles() const { return _triangle; }
     bool Contains(int v) const { return _inside[v] != 0; }
@@ -163,7 +193,7 @@ private:
     std::vector<int> _vertex, _triangle; // the triangles are those that touch the vertices
     std::vector<State> _state;
     std::vector<Triangle> _record;
-    std::vector<char> _inside;
+    std::vector<char> _inside, _seen;
 
     void Enter(int v)
     {

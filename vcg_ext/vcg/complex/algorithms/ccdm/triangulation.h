@@ -91,7 +91,7 @@ public:
     /// two faces and that no vertex has more than one fan.
     void Build(int vertexCount, const std::vector<std::array<int, 3>> &faces)
     {
-        _ring.clear();
+        ForgetRings();
         triangle.assign(faces.size(), Triangle());
         incident.assign(vertexCount, -1);
         for (std::size_t t = 0; t < faces.size(); ++t)
@@ -138,7 +138,7 @@ public:
     /// Marks both sides of an edge.
     void SetConstrained(Side s, bool on)
     {
-        _ring.clear();
+        ForgetRings();
         triangle[SideTriangle(s)].SetConstrained(SideEdge(s), on);
         const Side m = Mate(s);
         if (m != NoSide)
@@ -378,7 +378,7 @@ public:
     /// Live triangles around w are those that were around either.
     void Collapse(int v, int w, Side s, Star &scratch)
     {
-        _ring.clear();
+        ForgetRings();
         GatherStar(v, scratch);
         const Side m = Mate(s);
         for (const Side c : scratch.corner)
@@ -393,7 +393,7 @@ public:
     /// order[k]; triangles follow their first vertex in that order.
     void Compact(const std::vector<int> &order)
     {
-        _ring.clear();
+        ForgetRings();
         std::vector<int> newVertex(incident.size(), -1);
         for (std::size_t k = 0; k < order.size(); ++k)
             newVertex[order[k]] = static_cast<int>(k);
@@ -438,9 +438,16 @@ public:
 private:
     std::vector<Ring> _ring; // empty: not kept
 
+    // Writes nothing where there are none, as several threads may change parts of the mesh then.
+    void ForgetRings()
+    {
+        if (!_ring.empty())
+            _ring.clear();
+    }
+
     void Grow(int v)
     {
-        _ring.clear();
+        ForgetRings();
         if (v >= VertexCount())
             incident.resize(v + 1, -1);
     }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/parallel.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 
 namespace vcg {
@@ -17,9 +19,11 @@ namespace ccdm {
 class VertexRemoval
 {
 public:
-    /// All three arrays are indexed by vertex; positions do not change.
-    VertexRemoval(Triangulation &mesh, const std::vector<Point> &position, const std::vector<Place> &place)
-        : _mesh(mesh), _position(position), _place(place)
+    /// All arrays are indexed by vertex; positions do not change. `region`: vertices well inside one region are removed
+    /// at the same time as those of the others; empty: all lie in one.
+    VertexRemoval(Triangulation &mesh, const std::vector<Point> &position, const std::vector<Place> &place,
+                  std::vector<int> region, Workers &workers)
+        : _mesh(mesh), _position(position), _place(place), _region(std::move(region)), _workers(workers), _hand(workers)
     {
     }
 
@@ -30,11 +34,8 @@ public:
     {
         _stamp.assign(_position.size(), 0);
         _touched.assign(_position.size(), 0);
-        std::vector<int> doomed;
-        for (std::size_t v = 0; v < kept.size(); ++v)
-            if (!kept[v] && _mesh.incident[v] >= 0)
-                doomed.push_back(static_cast<int>(v));
-        const double total = static_cast<double>(std::max<std::size_t>(doomed.size(), 1));
+        std::vector<std::vector<int>> doomed = Divide(kept);
+        const double total = static_cast<double>(std::max<std::size_t>(Count(doomed), 1));
         auto report = [&](std::size_t left) { return progress(1 - static_cast<double>(left) / total); };
         if (!RemoveRounds(doomed, report))
             return false;
@@ -52,114 +53,183 @@ private:
         double cosine;  ///< least cosine between a new triangle's normal and its own old one
         double quality; ///< least aspect ratio of a new triangle
     };
+    struct Candidate {
+        double score;
+        int target;
+        Side side;
+    };
+    // What a worker needs.
+    struct Hand {
+        Star star, scratch;
+        std::vector<Candidate> candidate;
+        int tick = 0;
+    };
 
     Triangulation &_mesh;
     const std::vector<Point> &_position;
     const std::vector<Place> &_place;
-    Star _star, _scratch;
+    const std::vector<int> _region;
+    Workers &_workers;
+    PerWorker<Hand> _hand;
     std::vector<int> _stamp, _touched;
-    int _tick = 0;
+
+    static std::size_t Count(const std::vector<std::vector<int>> &lists)
+    {
+        std::size_t count = 0;
+        for (const std::vector<int> &list : lists)
+            count += list.size();
+        return count;
+    }
+
+    // The vertices to remove: those well inside each region, and in the last list the others. No triangle of the
+    // neighbours of the former reaches into another region, and no removal of theirs changes that: what it reads and
+    // writes is its region's own.
+    std::vector<std::vector<int>> Divide(const std::vector<char> &kept) const
+    {
+        const int regions = _region.empty() ? 1 : *std::max_element(_region.begin(), _region.end()) + 1;
+        enum : char { Inside, NearBorder, AtBorder };
+        std::vector<char> where(kept.size(), Inside);
+        if (regions > 1) {
+            for (const Triangle &T : _mesh.triangle)
+                if (_region[T.v[0]] != _region[T.v[1]] || _region[T.v[1]] != _region[T.v[2]])
+                    where[T.v[0]] = where[T.v[1]] = where[T.v[2]] = AtBorder;
+            for (const Triangle &T : _mesh.triangle)
+                if (where[T.v[0]] == AtBorder || where[T.v[1]] == AtBorder || where[T.v[2]] == AtBorder)
+                    for (const int v : T.v)
+                        where[v] = std::max<char>(where[v], NearBorder);
+        }
+        std::vector<std::vector<int>> doomed(regions);
+        std::vector<int> others;
+        for (std::size_t v = 0; v < kept.size(); ++v)
+            if (!kept[v] && _mesh.incident[v] >= 0)
+                (regions > 1 && where[v] == Inside ? doomed[_region[v]] : others).push_back(static_cast<int>(v));
+        doomed.push_back(std::move(others));
+        return doomed;
+    }
 
     // Each round removes an independent set, so that the triangulation thins out evenly; the limits
     // are relaxed when a round no longer gets ahead.
     template <class Progress>
-    bool RemoveRounds(std::vector<int> &doomed, const Progress &progress)
+    bool RemoveRounds(std::vector<std::vector<int>> &doomed, const Progress &progress)
     {
         static const Limits levels[] = {{0.7, 0.05}, {0.3, 0.01}, {0.1, 1e-4}};
         std::size_t level = 0;
-        std::vector<int> rest;
-        for (int round = 1; !doomed.empty(); ++round) {
+        for (int round = 1;; ++round) {
+            const std::size_t before = Count(doomed);
+            if (before == 0)
+                break;
             const bool ears = level == std::size(levels);
             const Limits &limits = levels[std::min(level, std::size(levels) - 1)];
-            rest.clear();
-            for (const int v : doomed) {
-                const bool open = _touched[v] != round;
-                if (!(open && (Remove(v, limits, round) || (ears && RemoveByEars(v, limits, round)))))
-                    rest.push_back(v);
-            }
-            if (!progress(rest.size()))
+            StampAnew();
+            _workers.For(static_cast<int>(doomed.size()) - 1, [&](int region, int worker) {
+                RemoveOnce(doomed[region], limits, round, ears, _hand[worker]);
+            });
+            StampAnew();
+            RemoveOnce(doomed.back(), limits, round, ears, _hand[0]);
+            const std::size_t left = Count(doomed), removed = before - left;
+            if (!progress(left))
                 return false;
-            const std::size_t removed = doomed.size() - rest.size();
-            doomed.swap(rest);
             if (ears && removed == 0)
                 break;
-            if (!ears && removed * 10 < doomed.size() + removed)
+            if (!ears && removed * 10 < before)
                 ++level;
         }
         return true;
     }
 
+    // From now on no worker's stamp is one that another has set before.
+    void StampAnew()
+    {
+        int last = 0;
+        for (int k = 0; k < _workers.Count(); ++k)
+            last = std::max(last, _hand[k].tick);
+        for (int k = 0; k < _workers.Count(); ++k)
+            _hand[k].tick = last;
+    }
+
+    // Goes through a list once; those that cannot be removed are left in it.
+    void RemoveOnce(std::vector<int> &doomed, const Limits &limits, int round, bool ears, Hand &hand)
+    {
+        std::size_t left = 0;
+        for (const int v : doomed) {
+            const bool open = _touched[v] != round;
+            if (!(open && (Remove(v, limits, round, hand) || (ears && RemoveByEars(v, limits, round, hand)))))
+                doomed[left++] = v;
+        }
+        doomed.resize(left);
+    }
+
     // Free vertices whose neighbourhood is most crowded go first.
     void RemoveOthers(int excess)
     {
+        Hand &hand = _hand[0];
         std::vector<std::pair<double, int>> crowd;
         for (int v = 0; v < _mesh.VertexCount(); ++v) {
             if (_mesh.incident[v] < 0 || _place[v].kind != VertexKind::Free)
                 continue;
-            _mesh.GatherStar(v, _star);
+            _mesh.GatherStar(v, hand.star);
             double length = 0;
-            for (const int o : _star.outer)
+            for (const int o : hand.star.outer)
                 length += Norm(_position[o] - _position[v]);
-            crowd.emplace_back(length / static_cast<double>(_star.outer.size()), v);
+            crowd.emplace_back(length / static_cast<double>(hand.star.outer.size()), v);
         }
         std::sort(crowd.begin(), crowd.end());
         const Limits limits = {0.3, 0.01};
         for (const auto &c : crowd)
-            if (excess > 0 && Remove(c.second, limits, 0))
+            if (excess > 0 && Remove(c.second, limits, 0, hand))
                 --excess;
     }
 
-    bool Remove(int v, const Limits &limits, int round)
+    bool Remove(int v, const Limits &limits, int round, Hand &hand)
     {
         const Place &place = _place[v];
         if (place.kind == VertexKind::Corner)
             return false;
-        _mesh.GatherStar(v, _star);
-        const int n = _star.Triangles();
-        const int spokes = static_cast<int>(_star.outer.size());
+        _mesh.GatherStar(v, hand.star);
+        const int spokes = static_cast<int>(hand.star.outer.size());
         // Candidates in falling order of the worst triangle that they leave.
-        _candidate.clear();
+        hand.candidate.clear();
         for (int k = 0; k < spokes; ++k) {
-            const Side s = SpokeSide(k);
+            const Side s = SpokeSide(hand.star, k);
             if (place.kind == VertexKind::Curve && !_mesh.Constrained(s))
                 continue;
-            const double score = Score(v, k, n, limits);
+            const double score = Score(v, hand.star, k, limits);
             if (score > 0)
-                _candidate.push_back({score, _star.outer[k], s});
+                hand.candidate.push_back({score, hand.star.outer[k], s});
         }
-        std::sort(_candidate.begin(), _candidate.end(), [](const Candidate &a, const Candidate &b) {
+        std::sort(hand.candidate.begin(), hand.candidate.end(), [](const Candidate &a, const Candidate &b) {
             return a.score != b.score ? a.score > b.score : a.target < b.target;
         });
-        for (const Candidate &c : _candidate)
-            if (_mesh.MayCollapse(v, c.target, c.side, _stamp, ++_tick)) {
+        for (const Candidate &c : hand.candidate)
+            if (_mesh.MayCollapse(v, c.target, c.side, _stamp, ++hand.tick)) {
                 if (round > 0)
-                    for (const int o : _star.outer)
+                    for (const int o : hand.star.outer)
                         _touched[o] = round;
-                _mesh.Collapse(v, c.target, c.side, _scratch);
+                _mesh.Collapse(v, c.target, c.side, hand.scratch);
                 return true;
             }
         return false;
     }
 
-    // A side of the edge from the centre of _star to its outer vertex k.
-    Side SpokeSide(int k) const
+    // A side of the edge from the centre of a star to its outer vertex k.
+    Side SpokeSide(const Star &star, int k) const
     {
-        const int n = _star.Triangles();
-        const Side corner = _star.corner[k < n ? k : n - 1];
+        const int n = star.Triangles();
+        const Side corner = star.corner[k < n ? k : n - 1];
         const Triangle &T = _mesh.triangle[SideTriangle(corner)];
-        const int other = k < n ? _star.OuterAfter(k) : _star.outer[n - 1];
+        const int other = k < n ? star.OuterAfter(k) : star.outer[n - 1];
         return MakeSide(SideTriangle(corner), T.IndexOf(other));
     }
 
-    // Worst aspect ratio of the triangles left when v moves to its outer vertex k; 0 if one of them
-    // breaks the limits.
-    double Score(int v, int k, int n, const Limits &limits) const
+    // Worst aspect ratio of the triangles left when v, the centre of a star, moves to its outer vertex k; 0 if one of
+    // them breaks the limits.
+    double Score(int v, const Star &star, int k, const Limits &limits) const
     {
-        const Point &x = _position[v], &w = _position[_star.outer[k]];
+        const Point &x = _position[v], &w = _position[star.outer[k]];
         double worst = 1;
-        for (int j = 0; j < n; ++j) {
-            const int a = _star.outer[j], b = _star.OuterAfter(j);
-            if (a == _star.outer[k] || b == _star.outer[k])
+        for (int j = 0; j < star.Triangles(); ++j) {
+            const int a = star.outer[j], b = star.OuterAfter(j);
+            if (a == star.outer[k] || b == star.outer[k])
                 continue;
             const Point &pa = _position[a], &pb = _position[b];
             const Point before = Cross(pa - x, pb - x), after = Cross(pa - w, pb - w);
@@ -175,22 +245,23 @@ private:
     }
 
     // Flips edges away from v, the ear with the best new triangle first, until a collapse is legal.
-    bool RemoveByEars(int v, const Limits &limits, int round)
+    bool RemoveByEars(int v, const Limits &limits, int round, Hand &hand)
     {
         if (_place[v].kind == VertexKind::Corner)
             return false;
         for (;;) {
-            _mesh.GatherStar(v, _star);
-            const int n = _star.Triangles();
+            _mesh.GatherStar(v, hand.star);
+            const int n = hand.star.Triangles();
             if (n <= 3)
                 return false;
             double best = 0;
             Side flip = NoSide;
-            for (int k = _star.closed ? 0 : 1; k < n; ++k) {
-                const Side s = SpokeSide(k);
+            for (int k = hand.star.closed ? 0 : 1; k < n; ++k) {
+                const Side s = SpokeSide(hand.star, k);
                 if (_mesh.Constrained(s) || _mesh.Mate(s) == NoSide)
                     continue;
-                const int a = _star.outer[k == 0 ? n - 1 : k - 1], p = _star.outer[k], b = _star.OuterAfter(k);
+                const int a = hand.star.outer[k == 0 ? n - 1 : k - 1], p = hand.star.outer[k],
+                          b = hand.star.OuterAfter(k);
                 const Point &x = _position[v];
                 const Point &pa = _position[a], &pp = _position[p], &pb = _position[b];
                 const Point old = Cross(pa - x, pp - x) + Cross(pp - x, pb - x);
@@ -207,17 +278,10 @@ private:
             if (flip == NoSide)
                 return false;
             _mesh.Flip(flip);
-            if (Remove(v, limits, round))
+            if (Remove(v, limits, round, hand))
                 return true;
         }
     }
-
-    struct Candidate {
-        double score;
-        int target;
-        Side side;
-    };
-    std::vector<Candidate> _candidate;
 };
 
 } // namespace ccdm
