@@ -2,6 +2,8 @@
 #ifndef CCDM_TESTS_SUPPORT_MESHES_H
 #define CCDM_TESTS_SUPPORT_MESHES_H
 
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include <vcg/complex/complex.h>
@@ -138,6 +140,17 @@ inline vcg::ccdm::Remesh AsRemesh(const vcg::ccdm::Model &model)
     for (const int v : model.features.corner)
         r.place[v].kind = vcg::ccdm::VertexKind::Corner;
     return r;
+}
+
+/// Whether two remeshes name the same vertices in the same triangles, which have the same neighbours and features.
+inline bool SameTriangles(const vcg::ccdm::Remesh &a, const vcg::ccdm::Remesh &b)
+{
+    return std::equal(a.mesh.triangle.begin(), a.mesh.triangle.end(), b.mesh.triangle.begin(), b.mesh.triangle.end(),
+                      [](const vcg::ccdm::Triangle &s, const vcg::ccdm::Triangle &t) {
+                          return std::equal(std::begin(s.v), std::end(s.v), std::begin(t.v)) &&
+                                 std::equal(std::begin(s.n), std::end(s.n), std::begin(t.n)) &&
+                                 s.constrained == t.constrained;
+                      });
 }
 
 } // namespace meshes

@@ -162,7 +162,8 @@ TEST(ExtremeCapture, CapturesInSeveralRegionsOnAnyNumberOfThreads)
         for (double &x : s.points[v])
             x *= lift;
     const Model model = meshes::MakeModel(s, count, 180);
-    std::vector<Point> first;
+    Remesh first;
+    std::vector<int> firstCaptured;
     for (const int threads : {1, 2, 4}) {
         Workers workers(threads);
         Remesh r = meshes::AsRemesh(model);
@@ -181,9 +182,13 @@ TEST(ExtremeCapture, CapturesInSeveralRegionsOnAnyNumberOfThreads)
             EXPECT_LT(nearest, 0.3 * h) << "it was 0.5";
         }
         EXPECT_EQ(VerifyTriangulation(r.mesh).fault, "");
-        if (threads == 1)
-            first = r.position;
-        EXPECT_EQ(r.position, first) << threads;
+        if (threads == 1) {
+            first = r;
+            firstCaptured = captured;
+        }
+        EXPECT_EQ(captured, firstCaptured) << threads;
+        EXPECT_EQ(r.position, first.position) << threads;
+        EXPECT_TRUE(meshes::SameTriangles(r, first)) << threads;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/angle_polish.h>
+#include <vcg/complex/algorithms/ccdm/parallel.h>
 #include <vcg/complex/algorithms/ccdm/remesh.h>
 #include <vcg/complex/algorithms/ccdm/sampling.h>
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
+#include <vcg/complex/algorithms/ccdm/parallel.h>
+#include <vcg/complex/algorithms/ccdm/patch_schedule.h>
 #include <vcg/complex/algorithms/ccdm/probes.h>
 #include <vcg/complex/algorithms/ccdm/trial_patch.h>
 
@@ -40,9 +43,11 @@ public:
         _run.cosine = std::cos(minAngle * Pi / 180);
         _run.settled.assign(_remesh.VertexCount(), 0);
         std::vector<Task> task = Divide();
-        _workers.For(static_cast<int>(task.size()) - 1,
-                     [&](int region, int worker) { _hand[worker].Work(task[region], region, Tries(Regions::Size)); });
-        // What reaches out of its region comes last.
+        _workers.For(static_cast<int>(task.size()) - 1, [&](int region, int worker) {
+            const int vertices = std::min(Regions::Size, _remesh.VertexCount() - region * Regions::Size);
+            _hand[worker].Work(task[region], region, Tries(vertices));
+        });
+        // What reaches out of its region comes last, and what was one too many for it.
         Task &last = task.back();
         int tries = Tries(_remesh.VertexCount());
         for (std::size_t k = 0; k + 1 < task.size(); ++k) {
@@ -67,7 +72,7 @@ private:
 
     // The probes of a region, or those of none.
     struct Task {
-        std::vector<int> worst, left; // the latter reach out of it
+        std::vector<int> worst, left; // the latter reach out of it, or are too many
         std::vector<int> captured;    // vertices
         int tries = 0;
     };
@@ -81,12 +86,14 @@ private:
         {
         }
 
-        // In order, at most `tries` of them. What it reads and writes lies inside the region: the triangles of the
-        // patch reach one ring further than its vertices, and what they turn against one more.
+        // In order, at most `tries` of them. What it writes lies two rings inside the region at least, as the triangles
+        // of a patch reach one ring further than its vertices, and what they turn against one more; so what it reads,
+        // one ring outside at most, no other worker writes.
         void Work(Task &task, int region, int tries)
         {
             _region = region;
-            for (const int r : task.worst) {
+            for (std::size_t k = 0; k < task.worst.size(); ++k) {
+                const int r = task.worst[k];
                 // What was captured before may have brought this one close.
                 const auto [t, squared] = Nearest(r);
                 if (std::sqrt(squared) <= _run.limit)
@@ -99,8 +106,12 @@ private:
                 const double distance = Distance(r);
                 if (distance <= _run.limit)
                     continue;
-                if (++task.tries > tries)
+                if (task.tries == tries) {
+                    task.left.insert(task.left.end(), task.worst.begin() + static_cast<std::ptrdiff_t>(k),
+                                     task.worst.end());
                     break;
+                }
+                ++task.tries;
                 const int v = Capture(r, t, distance);
                 if (v < 0)
                     continue;

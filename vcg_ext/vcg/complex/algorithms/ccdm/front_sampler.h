@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <vcg/complex/algorithms/ccdm/disjoint_sets.h>

@@ -30,11 +30,6 @@ public:
     {
     }
 
-    bool Build(Remesh &out, const Progress &progress)
-    {
-        Workers alone(1);
-        return Build(out, alone, progress);
-    }
     /// The mesh of the samples. More vertices than samples remain where topology asks for them. False
     /// when `progress` stopped it.
     bool Build(Remesh &out, Workers &workers, const Progress &progress)
@@ -60,6 +55,12 @@ public:
             return false;
         Finish(out, workers);
         return true;
+    }
+    /// The same on one thread.
+    bool Build(Remesh &out, const Progress &progress)
+    {
+        Workers alone(1);
+        return Build(out, alone, progress);
     }
 
 private:

@@ -183,7 +183,7 @@ struct Chunks {
         all.reserve(size);
         for (std::vector<Item> &part : parts) {
             all.insert(all.end(), part.begin(), part.end());
-            part = {}; // both at a time would be twice the memory
+            part = std::vector<Item>(); // both at a time would be twice the memory
         }
         return all;
     }

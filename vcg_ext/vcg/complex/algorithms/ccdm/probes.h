@@ -185,6 +185,8 @@ private:
         const Triangulation &m = _model.surface.mesh;
         // Of each, the squared distance to a vertex and the vertex: the complement of the least, found in any order.
         std::vector<std::atomic<std::uint64_t>> best(m.VertexCount());
+        for (std::atomic<std::uint64_t> &b : best)
+            b.store(0, std::memory_order_relaxed);
         Chunks::For(_workers, _remesh.VertexCount(), [&](int first, int last, int) {
             for (int v = first; v < last; ++v)
                 for (const int r : m.triangle[_remesh.place[v].face].v) {

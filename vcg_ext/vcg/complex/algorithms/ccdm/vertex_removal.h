@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -34,10 +35,22 @@ public:
     {
         _stamp.assign(_position.size(), 0);
         _touched.assign(_position.size(), 0);
-        std::vector<std::vector<int>> doomed = Divide(kept);
-        const double total = static_cast<double>(std::max<std::size_t>(Count(doomed), 1));
-        auto report = [&](std::size_t left) { return progress(1 - static_cast<double>(left) / total); };
-        if (!RemoveRounds(doomed, report))
+        std::vector<std::vector<int>> inside;
+        std::vector<int> rest;
+        Divide(kept, inside, rest);
+        std::size_t inRegions = 0;
+        for (const std::vector<int> &list : inside)
+            inRegions += list.size();
+        const std::size_t all = inRegions + rest.size();
+        const auto report = [&](std::size_t left) {
+            return progress(1 - static_cast<double>(left) / static_cast<double>(std::max<std::size_t>(all, 1)));
+        };
+        if (!RemoveInside(inside, [&](std::size_t left) { return report(left + rest.size()); }))
+            return false;
+        for (const std::vector<int> &list : inside)
+            rest.insert(rest.end(), list.begin(), list.end());
+        std::sort(rest.begin(), rest.end());
+        if (!RemoveRest(rest, report))
             return false;
         // What is left is held by topology or by the shape; others may go in its stead.
         int alive = 0;
@@ -58,6 +71,8 @@ private:
         int target;
         Side side;
     };
+    static constexpr Limits Levels[] = {{0.7, 0.05}, {0.3, 0.01}, {0.1, 1e-4}};
+
     // What a worker needs.
     struct Hand {
         Star star, scratch;
@@ -71,24 +86,18 @@ private:
     const std::vector<int> _region;
     Workers &_workers;
     PerWorker<Hand> _hand;
-    std::vector<int> _stamp, _touched;
+    std::vector<int> _stamp;
+    std::vector<int> _touched; // in which round, last
+    int _round = 0;
 
-    static std::size_t Count(const std::vector<std::vector<int>> &lists)
-    {
-        std::size_t count = 0;
-        for (const std::vector<int> &list : lists)
-            count += list.size();
-        return count;
-    }
-
-    // The vertices to remove: those well inside each region, and in the last list the others. No triangle of the
-    // neighbours of the former reaches into another region, and no removal of theirs changes that: what it reads and
-    // writes is its region's own.
-    std::vector<std::vector<int>> Divide(const std::vector<char> &kept) const
+    // The vertices to remove: those well inside each region, and the rest. No triangle of the neighbours of the
+    // former reaches into another region, and as long as none but the former are removed, none will: what their removal
+    // reads and writes is their region's own.
+    void Divide(const std::vector<char> &kept, std::vector<std::vector<int>> &inside, std::vector<int> &rest) const
     {
         const int regions = _region.empty() ? 1 : *std::max_element(_region.begin(), _region.end()) + 1;
         enum : char { Inside, NearBorder, AtBorder };
-        std::vector<char> where(kept.size(), Inside);
+        std::vector<char> where(kept.size(), regions > 1 ? Inside : AtBorder);
         if (regions > 1) {
             for (const Triangle &T : _mesh.triangle)
                 if (_region[T.v[0]] != _region[T.v[1]] || _region[T.v[1]] != _region[T.v[2]])
@@ -97,41 +106,55 @@ private:
                 if (where[T.v[0]] == AtBorder || where[T.v[1]] == AtBorder || where[T.v[2]] == AtBorder)
                     for (const int v : T.v)
                         where[v] = std::max<char>(where[v], NearBorder);
+            inside.resize(regions);
         }
-        std::vector<std::vector<int>> doomed(regions);
-        std::vector<int> others;
         for (std::size_t v = 0; v < kept.size(); ++v)
             if (!kept[v] && _mesh.incident[v] >= 0)
-                (regions > 1 && where[v] == Inside ? doomed[_region[v]] : others).push_back(static_cast<int>(v));
-        doomed.push_back(std::move(others));
-        return doomed;
+                (where[v] == Inside ? inside[_region[v]] : rest).push_back(static_cast<int>(v));
     }
 
-    // Each round removes an independent set, so that the triangulation thins out evenly; the limits
-    // are relaxed when a round no longer gets ahead.
+    // Each round removes an independent set, so that the triangulation thins out evenly; the limits are relaxed when a
+    // round no longer gets ahead. Regions at the same time, each by itself; what withstands the last limits is left.
     template <class Progress>
-    bool RemoveRounds(std::vector<std::vector<int>> &doomed, const Progress &progress)
+    bool RemoveInside(std::vector<std::vector<int>> &inside, const Progress &progress)
     {
-        static const Limits levels[] = {{0.7, 0.05}, {0.3, 0.01}, {0.1, 1e-4}};
+        std::size_t left = 0;
+        for (const std::vector<int> &list : inside)
+            left += list.size();
         std::size_t level = 0;
-        for (int round = 1;; ++round) {
-            const std::size_t before = Count(doomed);
-            if (before == 0)
-                break;
-            const bool ears = level == std::size(levels);
-            const Limits &limits = levels[std::min(level, std::size(levels) - 1)];
-            StampAnew();
-            _workers.For(static_cast<int>(doomed.size()) - 1, [&](int region, int worker) {
-                RemoveOnce(doomed[region], limits, round, ears, _hand[worker]);
+        while (left > 0 && level < std::size(Levels)) {
+            ++_round;
+            _workers.For(static_cast<int>(inside.size()), [&](int region, int worker) {
+                RemoveOnce(inside[region], Levels[level], false, _hand[worker]);
             });
             StampAnew();
-            RemoveOnce(doomed.back(), limits, round, ears, _hand[0]);
-            const std::size_t left = Count(doomed), removed = before - left;
+            const std::size_t before = left;
+            left = 0;
+            for (const std::vector<int> &list : inside)
+                left += list.size();
             if (!progress(left))
                 return false;
-            if (ears && removed == 0)
+            if ((before - left) * 10 < before)
+                ++level;
+        }
+        return true;
+    }
+
+    // The same for the rest; last come ears.
+    template <class Progress>
+    bool RemoveRest(std::vector<int> &doomed, const Progress &progress)
+    {
+        for (std::size_t level = 0; !doomed.empty();) {
+            ++_round;
+            const bool ears = level == std::size(Levels);
+            const std::size_t before = doomed.size();
+            RemoveOnce(doomed, Levels[std::min(level, std::size(Levels) - 1)], ears, _hand[0]);
+            const std::size_t left = doomed.size();
+            if (!progress(left))
+                return false;
+            if (ears && left == before)
                 break;
-            if (!ears && removed * 10 < before)
+            if (!ears && (before - left) * 10 < before)
                 ++level;
         }
         return true;
@@ -148,12 +171,12 @@ private:
     }
 
     // Goes through a list once; those that cannot be removed are left in it.
-    void RemoveOnce(std::vector<int> &doomed, const Limits &limits, int round, bool ears, Hand &hand)
+    void RemoveOnce(std::vector<int> &doomed, const Limits &limits, bool ears, Hand &hand)
     {
         std::size_t left = 0;
         for (const int v : doomed) {
-            const bool open = _touched[v] != round;
-            if (!(open && (Remove(v, limits, round, hand) || (ears && RemoveByEars(v, limits, round, hand)))))
+            const bool open = _touched[v] != _round;
+            if (!(open && (Remove(v, limits, _round, hand) || (ears && RemoveByEars(v, limits, hand)))))
                 doomed[left++] = v;
         }
         doomed.resize(left);
@@ -245,7 +268,7 @@ private:
     }
 
     // Flips edges away from v, the ear with the best new triangle first, until a collapse is legal.
-    bool RemoveByEars(int v, const Limits &limits, int round, Hand &hand)
+    bool RemoveByEars(int v, const Limits &limits, Hand &hand)
     {
         if (_place[v].kind == VertexKind::Corner)
             return false;
@@ -278,7 +301,7 @@ private:
             if (flip == NoSide)
                 return false;
             _mesh.Flip(flip);
-            if (Remove(v, limits, round, hand))
+            if (Remove(v, limits, _round, hand))
                 return true;
         }
     }
