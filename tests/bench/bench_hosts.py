@@ -10,13 +10,14 @@ tests/bench/README.md.
 import argparse
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
 
 import pages
 from common import PROGRAM, SERVER, count_vertices, cpu_seconds, model, provenance, write_figures
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+import display  # noqa: E402
 
 CASES = (("joint", 6000, 40), ("foot", 6000, 180), ("bunny_scan", 10000, 180), ("igea", 20000, 180))
 RUNS = 3
@@ -41,22 +42,12 @@ EXPLICIT = """<!DOCTYPE FilterScript>
 """
 
 
-def start_display():
-    """A display of our own, so that its processor time stays out of the figures."""
-    for number in range(90, 120):
-        process = subprocess.Popen(["Xvfb", f":{number}", "-screen", "0", "640x480x24", "-nolisten", "tcp"],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(1)
-        if process.poll() is None:
-            return process, f":{number}"
-    raise RuntimeError("no display could be started")
-
-
-def explicit(source, length, diagonal, angle, folder, display):
+def explicit(source, length, diagonal, angle, folder):
     script, out = os.path.join(folder, "explicit.mlx"), os.path.join(folder, "explicit.ply")
     with open(script, "w", encoding="ascii") as text:
         text.write(EXPLICIT.format(length=length, diagonal=diagonal, angle=min(angle, 179), distance=diagonal / 100))
-    cpu, _ = cpu_seconds([SERVER, "-i", source, "-s", script, "-o", out], env={**os.environ, "DISPLAY": display})
+    # A display that is there already, so that its processor time stays out of the figures.
+    cpu, _ = cpu_seconds([SERVER, "-i", source, "-s", script, "-o", out], env=display.environment())
     return cpu, count_vertices(out)
 
 
@@ -78,25 +69,25 @@ def ccdm(source, n, angle, folder):
                         str(angle), "--optimizer", "annealing", "--sampler", "random", "--threads", "1", "--quiet"])
 
 
-def calibrated(source, n, angle, folder, display):
+def calibrated(source, n, angle, folder):
     """Edge length whose vertex count is within 3 % of n, with that count and the diagonal."""
     area, diagonal = geometry(source)
     length = (2 * area / (3 ** 0.5 * n)) ** 0.5
     for _ in range(TRIES):
-        _, got = explicit(source, length, diagonal, angle, folder, display)
+        _, got = explicit(source, length, diagonal, angle, folder)
         if abs(got / n - 1) < 0.03:
             break
         length *= (got / n) ** 0.5
     return length, got, diagonal
 
 
-def bench_case(case, n, angle, folder, display):
+def bench_case(case, n, angle, folder):
     source = model(case)
-    length, got, diagonal = calibrated(source, n, angle, folder, display)
+    length, got, diagonal = calibrated(source, n, angle, folder)
     ours, theirs = [], []
     for _ in range(RUNS):
         ours.append(ccdm(source, n, angle, folder))
-        theirs.append(explicit(source, length, diagonal, angle, folder, display)[0])
+        theirs.append(explicit(source, length, diagonal, angle, folder)[0])
     row = {"model": os.path.splitext(os.path.basename(source))[0], "n": n, "angle": angle, "explicit_n": got,
            "ccdm": statistics.median(cpu for cpu, _ in ours), "megabytes": max(megabytes for _, megabytes in ours),
            "explicit": statistics.median(theirs)}
@@ -119,18 +110,14 @@ def write_section(rows):
 
 def main():
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
-    display, name = start_display()
     rows = []
-    try:
-        with tempfile.TemporaryDirectory() as folder:
-            print(f"{'model':<12}{'n':>7}{'CCDM s':>9}{'MB':>7}{'explicit s':>12}{'n':>8}{'ratio':>8}")
-            for case, n, angle in CASES:
-                row = bench_case(case, n, angle, folder, name)
-                rows.append(row)
-                print(f"{case:<12}{n:>7}{row['ccdm']:>9.2f}{row['megabytes']:>7.0f}{row['explicit']:>12.2f}"
-                      f"{row['explicit_n']:>8}{row['ratio']:>8.3f}", flush=True)
-    finally:
-        display.terminate()
+    with tempfile.TemporaryDirectory() as folder:
+        print(f"{'model':<12}{'n':>7}{'CCDM s':>9}{'MB':>7}{'explicit s':>12}{'n':>8}{'ratio':>8}")
+        for case, n, angle in CASES:
+            row = bench_case(case, n, angle, folder)
+            rows.append(row)
+            print(f"{case:<12}{n:>7}{row['ccdm']:>9.2f}{row['megabytes']:>7.0f}{row['explicit']:>12.2f}"
+                  f"{row['explicit_n']:>8}{row['ratio']:>8.3f}", flush=True)
     write_figures("hosts.json", rows)
     write_section(rows)
     return 0

@@ -23,11 +23,14 @@ def script_names():
     return sorted(n for n in os.listdir(SCRIPTS) if n.endswith(".mlx"))
 
 
-def run_server(source, script, out, *extra):
+def call_server(*arguments):
     server = os.path.join(os.environ["CCDM_HOST"], "bin", "meshlabserver")
-    return subprocess.run([server, "-i", str(source), "-s", str(script), "-o", str(out), *extra],
-                          env=display.environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          timeout=240, check=False)
+    return subprocess.run([server, *map(str, arguments)], env=display.environment(), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=240, check=False)
+
+
+def run_server(source, script, out, *extra):
+    return call_server("-i", source, "-s", script, "-o", out, *extra)
 
 
 def variant(tmp_path, **changes):
@@ -133,10 +136,7 @@ def test_non_manifold_input_is_refused(tmp_path):
 
 
 def test_no_mesh_is_refused(tmp_path):
-    server = os.path.join(os.environ["CCDM_HOST"], "bin", "meshlabserver")
-    run = subprocess.run([server, "-s", os.path.join(SCRIPTS, "ccdm_uniform.mlx"), "-o", str(tmp_path / "o.ply")],
-                         env=display.environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                         timeout=120, check=False)
+    run = call_server("-s", os.path.join(SCRIPTS, "ccdm_uniform.mlx"), "-o", tmp_path / "o.ply")
     assert run.returncode == 255 and "there is no current layer" in run.stdout
 
 

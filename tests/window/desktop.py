@@ -3,16 +3,18 @@
 
 One in a process: the accessibility library connects once, to the bus that the environment names then.
 """
-import ctypes
 import importlib.util
 import os
-import select
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import uuid
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+import display  # noqa: E402
 
 # Where each comes from in Debian.
 PROGRAMS = {"Xvfb": "xvfb", "openbox": "openbox", "dbus-daemon": "dbus", "xdotool": "xdotool",
@@ -75,9 +77,7 @@ class Desktop:
         self.close()
 
     def _start(self):
-        display = ":" + self._first_line(["Xvfb", "-displayfd", "{fd}", "-screen", "0", "%dx%dx24" % self.size,
-                                          "-nolisten", "tcp", "-noreset"], "X server")
-        self.environment["DISPLAY"] = display
+        self.environment["DISPLAY"] = ":" + self._first_line(display.x_server(*self.size), "X server")
         # Services of the bus inherit its environment, so it comes after the display.
         bus = self._first_line(["dbus-daemon", "--session", "--nofork", "--nopidfile", "--print-address={fd}"], "bus")
         self.environment["DBUS_SESSION_BUS_ADDRESS"] = bus
@@ -100,15 +100,7 @@ class Desktop:
 
     def _first_line(self, command, name):
         """Starts what prints a line to the file descriptor that stands for {fd} once it is ready."""
-        reading, writing = os.pipe()
-        try:
-            self.spawn([word.replace("{fd}", str(writing)) for word in command], name, pass_fds=(writing,))
-        finally:
-            os.close(writing)
-        with os.fdopen(reading) as pipe:
-            if not select.select([pipe], [], [], 20)[0]:
-                raise TimeoutError(f"{name} does not start")
-            line = pipe.readline().strip()
+        line = display.first_line(command, lambda words, fds: self.spawn(words, name, pass_fds=fds))
         if not line:
             raise RuntimeError(f"{name} ended: " + open(f"{self.folder}/{name}.log", errors="replace").read())
         return line
@@ -118,7 +110,7 @@ class Desktop:
         log = open(f"{self.folder}/{name}.log", "ab")
         with log:
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=self.folder,
-                                       env=self.environment, preexec_fn=_die_with_parent, **options)
+                                       env=self.environment, preexec_fn=display.die_with_parent, **options)
         self.started.append(process)
         return process
 
@@ -169,8 +161,3 @@ def stop(process):
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait(10)
-
-
-def _die_with_parent():
-    # Even when the tests are killed.
-    ctypes.CDLL(None).prctl(1, signal.SIGTERM)

@@ -16,6 +16,7 @@ import pytest
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from host import (FILTER, PLUGIN, PLUGINS, SAMPLES, SCRIPTS, VERSION, content, load, meshes, refused,  # noqa: E402
                   set_of)
+import display  # noqa: E402
 import plyfile  # noqa: E402
 from filter_parameters import page_rows  # noqa: E402
 
@@ -117,8 +118,8 @@ def test_three_hosts_give_one_mesh(tmp_path):
     script, served = tmp_path / "s.mlx", tmp_path / "s.ply"
     script.write_bytes(b"<!DOCTYPE FilterScript>\n" + tree.tostring(document.getroot()))
     server = os.path.join(os.environ["CCDM_HOST"], "bin", "meshlabserver")
-    environment = {k: v for k, v in os.environ.items() if k != "LD_LIBRARY_PATH"}
-    subprocess.run(["xvfb-run", "-a", server, "-i", source, "-s", script, "-o", served], check=True, timeout=240,
+    environment = {k: v for k, v in display.environment().items() if k != "LD_LIBRARY_PATH"}
+    subprocess.run([server, "-i", source, "-s", script, "-o", served], check=True, timeout=240,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(served))

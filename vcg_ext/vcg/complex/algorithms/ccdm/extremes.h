@@ -103,7 +103,7 @@ private:
                     continue;
                 }
                 _patch.Take(t, Rings);
-                const double distance = Distance(r);
+                const double distance = DistanceInPatch(r, squared);
                 if (distance <= _run.limit)
                     continue;
                 if (task.tries == tries) {
@@ -155,11 +155,13 @@ private:
             return _probe.Locate(r, _remesh.mesh.triangle[_probe.Owner(r)].v[0], [&](int v) { return Open(v); });
         }
 
-        // Of a probe, now. A descent can end on a wrong part where the surface is crumpled: what looks far is looked
-        // for in all of the patch.
-        double Distance(int r) const
+        // Of a probe, now.
+        double Distance(int r) const { return DistanceInPatch(r, Nearest(r).second); }
+
+        // The same, of which a descent came to `squared`. It can end on a wrong part where the surface is crumpled:
+        // what looks far is looked for in all of the patch.
+        double DistanceInPatch(int r, double squared) const
         {
-            double squared = Nearest(r).second;
             if (squared > _run.limit * _run.limit)
                 for (const int t : _patch.Triangles())
                     squared = std::min(squared, _probe.NearestOnRemesh(t, _probe[r].point).squaredDistance);

@@ -31,18 +31,16 @@ std::vector<Side> InnerEdgesWhere(const Triangulation &m, Workers &workers, cons
 
 /// Patches of a mesh that can be worked on at the same time. Vertices are numbered along a space-filling
 /// curve, so a range of numbers is a patch of the surface.
-struct Patches {
-    static constexpr int Size = 1024;
+template <int Vertices>
+struct PatchesOf {
+    static constexpr int Size = Vertices;
     static int Of(int v) { return v / Size; }
     static int Count(int vertices) { return (vertices + Size - 1) / Size; }
 };
+using Patches = PatchesOf<1024>;
 
 /// Larger patches, for work that reaches several rings around.
-struct Regions {
-    static constexpr int Size = 32 * Patches::Size;
-    static int Of(int v) { return v / Size; }
-    static int Count(int vertices) { return (vertices + Size - 1) / Size; }
-};
+using Regions = PatchesOf<32 * Patches::Size>;
 
 /// The patch that holds all four vertices of an edge's two triangles; -1 if none does, or if the edge has
 /// one triangle only.

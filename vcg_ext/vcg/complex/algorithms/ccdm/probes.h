@@ -172,10 +172,10 @@ private:
         return bits;
     }
 
-    static void Raise(std::atomic<std::uint64_t> &most, std::uint64_t x)
+    static void Lower(std::atomic<std::uint64_t> &least, std::uint64_t x)
     {
-        std::uint64_t seen = most.load(std::memory_order_relaxed);
-        while (seen < x && !most.compare_exchange_weak(seen, x, std::memory_order_relaxed)) {
+        std::uint64_t seen = least.load(std::memory_order_relaxed);
+        while (x < seen && !least.compare_exchange_weak(seen, x, std::memory_order_relaxed)) {
         }
     }
 
@@ -183,25 +183,27 @@ private:
     std::vector<int> NearVertices() const
     {
         const Triangulation &m = _model.surface.mesh;
-        // Of each, the squared distance to a vertex and the vertex: the complement of the least, found in any order.
-        std::vector<std::atomic<std::uint64_t>> best(m.VertexCount());
-        for (std::atomic<std::uint64_t> &b : best)
-            b.store(0, std::memory_order_relaxed);
+        // Of each, the squared distance to the nearest vertex and its number: the least, in whatever order it is found.
+        constexpr std::uint64_t none = ~std::uint64_t(0);
+        std::vector<std::atomic<std::uint64_t>> least(m.VertexCount());
+        for (std::atomic<std::uint64_t> &l : least)
+            l.store(none, std::memory_order_relaxed);
         Chunks::For(_workers, _remesh.VertexCount(), [&](int first, int last, int) {
             for (int v = first; v < last; ++v)
                 for (const int r : m.triangle[_remesh.place[v].face].v) {
-                    const auto squared =
-                        static_cast<float>(SquaredNorm(_remesh.position[v] - _model.surface.position[r]));
-                    Raise(best[r],
-                          ~(static_cast<std::uint64_t>(OrderedBits(squared)) << 32 | static_cast<unsigned>(v)));
+                    const double squared = SquaredNorm(_remesh.position[v] - _model.surface.position[r]);
+                    const std::uint64_t high = OrderedBits(static_cast<float>(squared));
+                    Lower(least[r], high << 32 | static_cast<std::uint32_t>(v));
                 }
         });
         std::vector<int> near(m.VertexCount(), -1), queue;
-        for (int r = 0; r < m.VertexCount(); ++r)
-            if (const std::uint64_t found = best[r].load(std::memory_order_relaxed)) {
-                near[r] = static_cast<int>(static_cast<std::uint32_t>(~found));
-                queue.push_back(r);
-            }
+        for (int r = 0; r < m.VertexCount(); ++r) {
+            const std::uint64_t found = least[r].load(std::memory_order_relaxed);
+            if (found == none)
+                continue;
+            near[r] = static_cast<int>(static_cast<std::uint32_t>(found));
+            queue.push_back(r);
+        }
         for (std::size_t k = 0; k < queue.size(); ++k)
             m.VisitSpokes(queue[k], [&](int o, Side) {
                 if (near[o] < 0) {

@@ -55,44 +55,28 @@ public:
     {
         _inside.resize(_remesh.VertexCount(), 0);
         Leave();
-        for (const int v : _remesh.mesh.triangle[t].v)
-            Enter(v);
-        for (std::size_t begin = 0; rings > 0; --rings) {
-            const std::size_t end = _vertex.size();
-            for (; begin < end; ++begin)
-                _remesh.mesh.VisitSpokes(_vertex[begin], [&](int o, Side) {
-                    Enter(o);
-                    return true;
-                });
-        }
+        GrowRings(t, rings, _vertex, [&](int v) { Enter(v); });
         Save();
     }
 
-    /// Whether test(vertex) is true for all vertices, of features too, within `rings` rings of triangle t; where it is
-    /// not, no star is looked at.
+    /// Whether test(vertex) is true for all vertices, of features too, within `rings` rings of triangle t; the stars of
+    /// those for which it is not are not looked at.
     template <class Test>
     bool AllWithin(int t, int rings, const Test &test)
     {
         _seen.resize(_remesh.VertexCount(), 0);
         std::vector<int> seen;
         bool all = true;
-        const auto see = [&](int v) {
-            if (_seen[v] == 0)
-                seen.push_back(v);
-            _seen[v] = 1;
-        };
-        for (const int v : _remesh.mesh.triangle[t].v)
-            see(v);
-        std::size_t begin = 0;
-        for (int ring = 0; ring <= rings && all; ++ring)
-            for (const std::size_t end = seen.size(); begin < end && all; ++begin) {
-                all = test(seen[begin]);
-                if (all && ring < rings)
-                    _remesh.mesh.VisitSpokes(seen[begin], [&](int o, Side) {
-                        see(o);
-                        return true;
-                    });
+        GrowRings(t, rings, seen, [&](int v) {
+            if (_seen[v] != 0)
+                return;
+            if (!test(v)) {
+                all = false;
+                return;
             }
+            _seen[v] = 1;
+            seen.push_back(v);
+        });
         for (const int v : seen)
             _seen[v] = 0;
         return all;
@@ -194,6 +178,23 @@ private:
     std::vector<State> _state;
     std::vector<Triangle> _record;
     std::vector<char> _inside, _seen;
+
+    // Calls enter(vertex) for the vertices of triangle t and then, ring by ring, for the neighbours of those that it
+    // has appended to `grown`.
+    template <class EnterVertex>
+    void GrowRings(int t, int rings, const std::vector<int> &grown, const EnterVertex &enter) const
+    {
+        for (const int v : _remesh.mesh.triangle[t].v)
+            enter(v);
+        for (std::size_t begin = 0; rings > 0; --rings) {
+            const std::size_t end = grown.size();
+            for (; begin < end; ++begin)
+                _remesh.mesh.VisitSpokes(grown[begin], [&](int o, Side) {
+                    enter(o);
+                    return true;
+                });
+        }
+    }
 
     void Enter(int v)
     {

@@ -35,22 +35,18 @@ public:
     {
         _stamp.assign(_position.size(), 0);
         _touched.assign(_position.size(), 0);
-        std::vector<std::vector<int>> inside;
-        std::vector<int> rest;
-        Divide(kept, inside, rest);
-        std::size_t inRegions = 0;
-        for (const std::vector<int> &list : inside)
-            inRegions += list.size();
-        const std::size_t all = inRegions + rest.size();
+        std::vector<std::vector<int>> inside, rest(1);
+        Divide(kept, inside, rest[0]);
+        const std::size_t outside = rest[0].size(), all = Count(inside) + outside;
         const auto report = [&](std::size_t left) {
             return progress(1 - static_cast<double>(left) / static_cast<double>(std::max<std::size_t>(all, 1)));
         };
-        if (!RemoveInside(inside, [&](std::size_t left) { return report(left + rest.size()); }))
+        if (!RemoveRounds(inside, false, [&](std::size_t left) { return report(left + outside); }))
             return false;
         for (const std::vector<int> &list : inside)
-            rest.insert(rest.end(), list.begin(), list.end());
-        std::sort(rest.begin(), rest.end());
-        if (!RemoveRest(rest, report))
+            rest[0].insert(rest[0].end(), list.begin(), list.end());
+        std::sort(rest[0].begin(), rest[0].end());
+        if (!RemoveRounds(rest, true, report))
             return false;
         // What is left is held by topology or by the shape; others may go in its stead.
         int alive = 0;
@@ -113,48 +109,34 @@ private:
                 (where[v] == Inside ? inside[_region[v]] : rest).push_back(static_cast<int>(v));
     }
 
-    // Each round removes an independent set, so that the triangulation thins out evenly; the limits are relaxed when a
-    // round no longer gets ahead. Regions at the same time, each by itself; what withstands the last limits is left.
-    template <class Progress>
-    bool RemoveInside(std::vector<std::vector<int>> &inside, const Progress &progress)
+    static std::size_t Count(const std::vector<std::vector<int>> &lists)
     {
-        std::size_t left = 0;
-        for (const std::vector<int> &list : inside)
-            left += list.size();
-        std::size_t level = 0;
-        while (left > 0 && level < std::size(Levels)) {
-            ++_round;
-            _workers.For(static_cast<int>(inside.size()), [&](int region, int worker) {
-                RemoveOnce(inside[region], Levels[level], false, _hand[worker]);
-            });
-            StampAnew();
-            const std::size_t before = left;
-            left = 0;
-            for (const std::vector<int> &list : inside)
-                left += list.size();
-            if (!progress(left))
-                return false;
-            if ((before - left) * 10 < before)
-                ++level;
-        }
-        return true;
+        std::size_t count = 0;
+        for (const std::vector<int> &list : lists)
+            count += list.size();
+        return count;
     }
 
-    // The same for the rest; last come ears.
+    // Each round removes an independent set of each list, so that the triangulation thins out evenly; the limits are
+    // relaxed when a round no longer gets ahead. What withstands the last limits is removed by ears, if those are
+    // wanted, or left in its list. The lists are worked on at the same time.
     template <class Progress>
-    bool RemoveRest(std::vector<int> &doomed, const Progress &progress)
+    bool RemoveRounds(std::vector<std::vector<int>> &doomed, bool byEars, const Progress &progress)
     {
-        for (std::size_t level = 0; !doomed.empty();) {
-            ++_round;
+        const std::size_t levels = std::size(Levels) + (byEars ? 1 : 0);
+        std::size_t left = Count(doomed);
+        for (std::size_t level = 0; left > 0 && level < levels;) {
             const bool ears = level == std::size(Levels);
-            const std::size_t before = doomed.size();
-            RemoveOnce(doomed, Levels[std::min(level, std::size(Levels) - 1)], ears, _hand[0]);
-            const std::size_t left = doomed.size();
+            const Limits &limits = Levels[std::min(level, std::size(Levels) - 1)];
+            ++_round;
+            _workers.For(static_cast<int>(doomed.size()),
+                         [&](int k, int worker) { RemoveOnce(doomed[k], limits, ears, _hand[worker]); });
+            StampAnew();
+            const std::size_t before = left;
+            left = Count(doomed);
             if (!progress(left))
                 return false;
-            if (ears && left == before)
-                break;
-            if (!ears && (before - left) * 10 < before)
+            if (ears ? left == before : (before - left) * 10 < before)
                 ++level;
         }
         return true;
@@ -176,7 +158,7 @@ private:
         std::size_t left = 0;
         for (const int v : doomed) {
             const bool open = _touched[v] != _round;
-            if (!(open && (Remove(v, limits, _round, hand) || (ears && RemoveByEars(v, limits, hand)))))
+            if (!(open && (Remove(v, limits, hand) || (ears && RemoveByEars(v, limits, hand)))))
                 doomed[left++] = v;
         }
         doomed.resize(left);
@@ -199,11 +181,11 @@ private:
         std::sort(crowd.begin(), crowd.end());
         const Limits limits = {0.3, 0.01};
         for (const auto &c : crowd)
-            if (excess > 0 && Remove(c.second, limits, 0, hand))
+            if (excess > 0 && Remove(c.second, limits, hand))
                 --excess;
     }
 
-    bool Remove(int v, const Limits &limits, int round, Hand &hand)
+    bool Remove(int v, const Limits &limits, Hand &hand)
     {
         const Place &place = _place[v];
         if (place.kind == VertexKind::Corner)
@@ -225,9 +207,8 @@ private:
         });
         for (const Candidate &c : hand.candidate)
             if (_mesh.MayCollapse(v, c.target, c.side, _stamp, ++hand.tick)) {
-                if (round > 0)
-                    for (const int o : hand.star.outer)
-                        _touched[o] = round;
+                for (const int o : hand.star.outer)
+                    _touched[o] = _round;
                 _mesh.Collapse(v, c.target, c.side, hand.scratch);
                 return true;
             }
@@ -301,7 +282,7 @@ private:
             if (flip == NoSide)
                 return false;
             _mesh.Flip(flip);
-            if (Remove(v, limits, _round, hand))
+            if (Remove(v, limits, hand))
                 return true;
         }
     }
